@@ -107,7 +107,7 @@ trace: $(STARL)
 	$(VENV)/python crates/starl-trace/tests/python/read_trace.py target/race.mcap target/every_event.mcap
 	$(VENV)/python crates/starl-trace/tests/python/documentation.py target/race.mcap
 
-# The schema of scenarios, by a validator that is not ours: it takes every example and refuses what is wrong.
+# The schema of scenarios, by a validator that is not ours: it accepts every example and rejects invalid scenarios.
 schema: $(STARL)
 	$(VENV)/python tools/check_schema.py $(STARL)
 
@@ -157,11 +157,11 @@ nightly: setup $(RELEASE)
 	$(RELEASE) test $(APPLICATIONS) --seeds 30 --out target/nightly
 	$(RELEASE) test search-building intersection-stream --seeds 10 --profile partitions,chaos --out target/nightly
 
-# The same a million times; goes on where it was stopped. Not part of `make test`, since it takes ten minutes and more.
+# The same a million times; continues where it was stopped. Not part of `make test`, since it takes ten minutes and more.
 million: $(RELEASE)
 	tools/million.sh $(RELEASE) target/million
 
-# Bugs planted in the protocols and checkers, one at a time, and which of them the same workloads catch; goes on where it
+# Bugs planted in the protocols and checkers, one at a time, and which of them the same workloads catch; continues where it
 # was stopped. Not part of `make test`, which only looks whether the place of each bug is found: it takes an hour.
 mutants:
 	python3 tools/mutants.py --write

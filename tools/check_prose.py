@@ -85,6 +85,22 @@ def opening_problem(blocks, verbs):
             yield line, f'the page begins with a sentence without a verb: "{sentence}"'
 
 
+def repetitions(text, blocks):
+    """A page has no section twice, and no sentence of more than twelve words."""
+    seen = set()
+    for section in re.finditer(r"^## .*", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), re.M):
+        if section[0] in seen:
+            yield text.count("\n", 0, text.rindex(section[0])) + 1, f'the page has the heading "{section[0]}" twice'
+        seen.add(section[0])
+    for block in blocks:
+        if block.kind == "page":
+            for line, sentence in sentences(block):
+                text = " ".join(sentence.split())
+                if len(text.split()) > 12 and text in seen:
+                    yield line, f'the page has this sentence twice: "{text}"'
+                seen.add(text)
+
+
 def problems_of(name, text, style):
     blocks = list(blocks_of(name, text))
     for block in blocks:
@@ -93,6 +109,7 @@ def problems_of(name, text, style):
         yield from sentence_problems(block, style.longest)
     if name.endswith(".md"):
         yield from opening_problem(blocks, style.verbs)
+        yield from repetitions(text, blocks)
 
 
 def failed_examples(style):
@@ -108,6 +125,8 @@ def failed_examples(style):
         "a sentence that is too long": "word " * (style.longest + 1) + "is long.",
         "a sentence that begins with What": "It stops. What it knows is lost.",
         "a page that begins without a verb": "Short texts about one question each.",
+        "a section that a page has twice": "It stops.\n\n## End\n\nIt stops.\n\n## End\n",
+        "a sentence that a page has twice": 2 * "A robot that has lost its leader waits for one second before it asks. ",
         "a word in a comment": ("x.rs", "/// Mends it.\nfn x() {}"),
         "a word in a message": ("x.rs", 'fn x() { panic!("the robot mends it") }'),
         "a word in the name of a test": ("x.rs", "#[test]\nfn it_mends() {}"),

@@ -34,7 +34,7 @@ cases() {
         esac
         while read -r fleet; do
             for network in "" "$bad_network"; do
-                # So many cars that they wait longer than promised where agreement takes longer.
+                # With so many cars some wait longer than promised where agreement takes longer.
                 [ "$example$network" = "intersection-stream$bad_network" ] && continue
                 # Trained with a radio that loses nothing, which docs/how-to/learned-policy.md is about.
                 [ "$example$network" = "crossing$bad_network" ] && continue

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the workloads of tools/workloads.txt, and a tenth as often those of tools/loads.txt, with every profile of faults
-# until there are a million runs, and sums them up. The summary of each block of seeds is kept as a file, so that it goes on where it was stopped;
+# until there are a million runs, and sums them up. The summary of each block of seeds is kept as a file, so that it continues where it was stopped;
 # what goes wrong is kept beside them, as scenarios and drawings.
 #
 # Usage: tools/million.sh STARL FOLDER [RUNS [SEEDS]]

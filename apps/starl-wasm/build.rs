@@ -1,4 +1,4 @@
-//! Bounds the memory of the module, so that no program can take all that the machine has.
+//! Bounds the memory of the module, so that no program can use all memory of the machine.
 
 /// The memory of an instance, bytes: `MOST_MEMORY` of starl.mjs.
 const MOST_MEMORY: u64 = 1 << 30;

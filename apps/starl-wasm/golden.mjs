@@ -36,7 +36,7 @@ function natively(request) {
   const { example, set = [], robots } = request;
   const options = set.flatMap((field) => ["--set", field]);
   if (robots) options.push("--robots", robots);
-  // A run that violates a property ends with status 1 and is compared all the same.
+  // A run that violates a property ends with status 1 and is compared too.
   const { error, stdout, stderr } = spawnSync(starl, ["run", example, "--json", ...options], { encoding: "utf8" });
   if (!stdout) throw new Error(`${starl} refused ${JSON.stringify(request)}: ${error ?? stderr}`);
   return JSON.parse(stdout);

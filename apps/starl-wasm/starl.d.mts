@@ -22,7 +22,7 @@ export function load(source?: string | URL | Response | BufferSource | WebAssemb
 /** An instance of the simulator. It holds any number of simulations, in 1 GiB of memory. */
 export class Starl {
   private constructor();
-  /** Whether it cannot go on: every call throws a StarlError that says why. Load another instance. */
+  /** Whether it cannot continue: every call throws a StarlError that says why. Load another instance. */
   readonly failed: boolean;
   /** The examples that come with StarL. */
   examples(): Example[];
@@ -102,7 +102,7 @@ export interface Options {
    */
   scenario?: string;
   /**
-   * The path of a program, or the name of one in Rust, in the place of the scenario's. If there is no scenario, by
+   * The path of a program, or the name of one in Rust, instead of the scenario's. If there is no scenario, by
    * default the only program among the files.
    */
   program?: string;
@@ -293,7 +293,7 @@ export interface Completion {
   detail: string | null;
   /** In Markdown. */
   documentation: string | null;
-  /** What to put in the place of `range`. */
+  /** What to put instead of `range`. */
   insert: string;
   /** Where the cursor belongs in `insert`: so many UTF-16 units stand before it. */
   cursor: number;
@@ -560,7 +560,7 @@ export interface Robot {
   condition: Condition;
   /** Whether its software has started in its present life. */
   started: boolean;
-  /** Why its program cannot go on. */
+  /** Why its program cannot continue. */
   failure: string | null;
   motors_stuck: boolean;
   sensors_frozen: boolean;

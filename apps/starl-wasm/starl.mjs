@@ -15,7 +15,7 @@ export class StarlError extends Error {
   }
 }
 
-/** So many numbers of `poses()` belong to each robot. */
+/** The number of elements of `poses()` that belong to each robot. */
 export const POSE_NUMBERS = 11;
 
 /** Loads the module and makes an instance of it. */
@@ -111,7 +111,7 @@ export class Starl {
     return new Simulation(this, this.request({ open_recorded }));
   }
 
-  /** Hands over a request as the module takes it, and gives what it answers. */
+  /** Passes a request to the module, and returns its answer. */
   request(request) {
     return this.#guarded((exports) => {
       const text = JSON.stringify(request);
@@ -150,7 +150,7 @@ export class Starl {
     return this.#failure !== null;
   }
 
-  /** A trap leaves the instance in no state to go on. */
+  /** An instance cannot be used after a trap. */
   #guarded(run) {
     if (this.#failure) throw new StarlError(this.#failure);
     const exports = this.#exports;
@@ -264,7 +264,7 @@ export class Simulation {
   }
 }
 
-// JSON has no word for what is no number: it would be taken for a moment that is not given.
+// JSON has no NaN: it would be read as a moment that is not given.
 function moment(seconds) {
   if (seconds === undefined || Number.isFinite(seconds)) return seconds;
   throw new StarlError(`${seconds} is not a time; give seconds from 0`);

@@ -1,4 +1,4 @@
-// Starts `starl lsp` and connects the editor to it. All that the editor knows of programs comes from
+// Starts `starl lsp` and connects the editor to it. Everything that the editor knows of programs comes from
 // there; this file has no knowledge of the language.
 // @ts-check
 "use strict";

@@ -45,8 +45,8 @@ fuzz_target!(|text: &str| {
             assert!(span.start <= span.end);
             assert!(text.get(span.start as usize..span.end as usize).is_some());
         }
-        if let Some(mend) = &diagnostic.mend {
-            assert_ne!(mend.apply(text), text);
+        if let Some(fix) = &diagnostic.fix {
+            assert_ne!(fix.apply(text), text);
         }
     }
     if read.diagnostics().len() < 50 {

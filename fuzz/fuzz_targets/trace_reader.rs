@@ -30,7 +30,7 @@ fn check(bytes: &[u8]) {
     let again = read(&writer.finish(&summary.outcome).expect("memory")).expect("just written");
     assert_eq!(again.header, header);
     assert_eq!(first_difference(records, again.records), None);
-    // Inputs are no records, and were not written again.
+    // Inputs are not records, and were not written again.
     let without_inputs = Summary {
         inputs: 0,
         ..summary

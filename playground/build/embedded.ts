@@ -1,5 +1,5 @@
-// Makes the page one file, for notebooks: scripts, workers and styles stand in it, and {{RUN}}, {{TRACE}} and {{MODULE}}
-// are the places of what it shows. Written by hand since all of it is about our own workers and module.
+// Makes the page one file, for notebooks: scripts, workers and styles stand in it, and {{RUN}}, {{TRACE}} and
+// {{MODULE}} are the places of what it shows. Written by hand since all of it is about our own workers and module.
 
 import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -42,7 +42,7 @@ export function withoutBench(): Plugin {
   };
 }
 
-/** Writes the file in the place of all others. */
+/** Writes the file instead of all others. */
 export function oneFile(): Plugin {
   return {
     name: "one-file",

@@ -15,7 +15,7 @@ const [WIDTH, HEIGHT, EDGE] = [240, 150, 10];
 /** Paths may differ from the true ones by so many pixels. */
 const TOLERANCE = 0.6;
 const COLORS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#b0763c", "#7a5ac8", "#a89a00"];
-/** Simulated time that is drawn, s; a hundred cars for a shorter time, or nothing could be told apart. */
+/** Simulated time that is drawn, s; a hundred cars for a shorter time, since otherwise nothing could be distinguished. */
 const LONGEST = 90;
 const FLEET_OF_MANY = 50;
 

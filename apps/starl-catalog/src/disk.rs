@@ -4,13 +4,13 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Larger files are no scenarios, programs, world files or images.
+/// Larger files are not scenarios, programs, world files or images.
 const LARGEST: u64 = 256 << 20;
 
 /// The content of a file, or why it cannot be read, in words.
 ///
 /// # Errors
-/// Where there is no such file, it is a folder or a device, is larger than 256 MiB, or cannot be read.
+/// If there is no such file, it is a folder or a device, is larger than 256 MiB, or cannot be read.
 #[allow(
     clippy::disallowed_methods,
     reason = "only front ends that have a disk hand this in"

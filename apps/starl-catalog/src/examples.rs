@@ -20,8 +20,7 @@ pub struct Example {
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
-/// A scenario for programs that come without one: a few robots on the floor, and waypoints. It names
-/// no program.
+/// A scenario for programs without one: a few robots on the floor, and waypoints. It names no program.
 pub const DEFAULT_SCENARIO: &str = include_str!("default.toml");
 
 /// An example: its name, what one sees, its folder, and the scenario and its files in there.
@@ -89,7 +88,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "intersection-stream",
-        "a hundred cars come to the intersection at random",
+        "a hundred cars arrive at the intersection at random",
         "intersection",
         "stream.toml",
         [
@@ -122,7 +121,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "broadcast",
-        "robots tell each other numbers in one order for all",
+        "robots broadcast numbers, which all receive in one order",
         "primitives",
         "broadcast.toml",
         ["broadcast.starl"]
@@ -150,7 +149,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "maze",
-        "robots look for goals and tell of the walls they meet",
+        "robots look for goals and report the walls they meet",
         "maze",
         "maze.toml",
         ["maze.starl"]
@@ -206,7 +205,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "registration",
-        "robots come and go, and agree on the participants",
+        "robots join and leave, and agree on the participants",
         "primitives",
         "registration.toml",
         ["registration.starl"]
@@ -231,8 +230,7 @@ impl Example {
 /// The prefix of examples' files in other scenarios: `example:race/race.starl`.
 const GLOBAL: &str = "example:";
 
-/// A loader that knows the files of all examples by their names besides what it has from another, which
-/// goes before.
+/// A loader of the files of all examples by their names; files of another loader have precedence.
 pub(crate) struct WithExamples<'a>(pub &'a dyn Loader);
 
 impl Loader for WithExamples<'_> {

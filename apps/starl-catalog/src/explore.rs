@@ -14,8 +14,8 @@ use starl_sim::scenario::{self, Goal, Scenario};
 const FOREVER: Duration = Duration::from_seconds(100 * 365 * 24 * 3600);
 
 impl Application {
-    /// An exploration of the first `robots` of the fleet. `heartbeats` has failure detectors send
-    /// them, which makes for many states; without them verdicts come only as the bounds say.
+    /// An exploration of the first `robots` of the fleet. With `heartbeats` failure detectors send them, which adds
+    /// many states; without, their verdicts change only within the bounds.
     ///
     /// # Errors
     /// As for [`Application::run`].

@@ -123,7 +123,7 @@ impl<'a> Parameters<'a> {
         })
     }
 
-    /// One of several words, each with what it stands for.
+    /// One of several words, each with its value.
     pub fn choice<T: Copy>(
         &mut self,
         name: &'static str,

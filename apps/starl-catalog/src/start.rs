@@ -24,7 +24,7 @@ pub struct Application {
     warnings: Vec<Findings>,
 }
 
-/// All that is wrong with a scenario and its programs.
+/// All problems of a scenario and its programs.
 #[derive(Clone, Debug)]
 pub struct Refusal {
     /// The compiler's findings in the programs.
@@ -37,7 +37,7 @@ pub struct Refusal {
 /// up in the registry.
 ///
 /// # Errors
-/// All that is wrong with it.
+/// All its problems.
 pub fn read(
     request: &Request,
     loader: &dyn Loader,
@@ -114,7 +114,7 @@ impl Application {
         &self.warnings
     }
 
-    /// A run at its start, watched by all that the scenario asks for.
+    /// A run at its start, with the checkers and monitors of the scenario.
     ///
     /// # Errors
     /// Returns only errors that [`read()`] has found before.
@@ -125,7 +125,7 @@ impl Application {
     /// A run of another scenario whose robots run programs of this one.
     ///
     /// # Errors
-    /// Where a group names another program, or gives it parameters that it does not take.
+    /// A group names another program, or sets parameters that it does not accept.
     pub fn run_of(&self, scenario: Scenario) -> Result<Run, StartError> {
         let monitors = match scenario.properties.program {
             true => {

@@ -15,7 +15,7 @@ from starl.env import Task, VectorEnv, World, tasks
 
 
 class ByNumPy(tasks.Navigation):
-    """`Navigation` with methods in the place of expressions."""
+    """`Navigation` with methods instead of expressions."""
 
     def begin(self, world: World) -> None:
         self.left = np.zeros((world.environments, world.robots))

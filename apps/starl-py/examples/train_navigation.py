@@ -42,7 +42,7 @@ def collect(env: VectorEnv, policy: Policy, seen: Tensor, steps: int) -> tuple[d
         over = torch.from_numpy(terminated | truncated)[:, None].expand(value.shape)
         reward = torch.from_numpy(infos["robot_rewards"]).float()
         if "final_obs" in infos:
-            # An episode that was cut off goes on in value.
+            # The value of an episode that was cut off continues.
             cut = truncated & ~terminated
             for index in np.flatnonzero(cut):
                 with torch.no_grad():

@@ -1,4 +1,4 @@
-//! Campaigns: single runs and searches for smaller scenarios, wherever they are made, and what is left of a failure.
+//! Campaigns: single runs and searches for smaller scenarios, in any process, and shrunk failures.
 
 use crate::engine::{Engine, registry};
 use crate::sweep::refused;

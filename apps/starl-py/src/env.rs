@@ -1,4 +1,4 @@
-//! Environments for learning: batches of worlds, whose results go into arrays of the caller.
+//! Environments for learning: batches of worlds, whose results are written to arrays of the caller.
 
 use crate::judge::Judge;
 use numpy::{
@@ -354,7 +354,7 @@ fn polygon(corners: &[Point]) -> PyResult<Obstacle> {
     match ConvexPolygon::new(corners) {
         Ok(base) => Ok(Obstacle::polygon(base)),
         Err(error) => Err(refused(format!(
-            "obstacles: a box or wall is none: {error}"
+            "obstacles: a box or wall is invalid: {error}"
         ))),
     }
 }

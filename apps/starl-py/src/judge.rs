@@ -57,7 +57,7 @@ fn kind(name: &str) -> PyResult<Kind> {
         "Float" => Ok(Kind::Float),
         "Point" => Ok(Kind::Point),
         other => Err(refused(format!(
-            "the type `{other}` is none of Bool, Float and Point"
+            "the type `{other}` is not Bool, Float or Point"
         ))),
     }
 }
@@ -75,7 +75,7 @@ fn worded(error: &WordingError) -> PyErr {
             "code": problem.code.number(),
             "field": null,
             "message": problem.message,
-            "help": problem.mend.as_ref().map(|mend| &mend.message),
+            "help": problem.fix.as_ref().map(|fix| &fix.message),
             "notes": problem.remarks().collect::<Vec<_>>(),
         })
     };

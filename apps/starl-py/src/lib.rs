@@ -1,5 +1,5 @@
-//! The native module of the Python package `starl`: the simulator behind requests in JSON, the same that the page in a
-//! browser sends, and what is too large for JSON: arrays and tables.
+//! The native module of the Python package `starl`: the simulator behind the requests in JSON that the page in a
+//! browser also sends, and arrays and tables, which are too large for JSON.
 //!
 //! The classes that people use are written in Python, in `python/starl/`.
 

@@ -1,4 +1,4 @@
-//! Sweeps: plans, single runs, and the rows that came back, from wherever they were run.
+//! Sweeps: plans, single runs, and their rows from any process.
 
 use crate::engine::{Engine, registry};
 use crate::table::Table;
@@ -156,7 +156,7 @@ impl Sweep {
         Ok(true)
     }
 
-    /// Lets another sweep go on with the journal.
+    /// Lets another sweep continue with the journal.
     fn release(&self) {
         self.state().journal = None;
     }

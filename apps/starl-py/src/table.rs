@@ -1,4 +1,4 @@
-//! Records as tables in Arrow's memory layout, which data frames of all libraries take over.
+//! Records as tables in Arrow's memory layout, which data frames of all libraries accept.
 //!
 //! Members of records become columns; members of members get names with points between.
 

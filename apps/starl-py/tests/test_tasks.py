@@ -216,8 +216,8 @@ def test_wrong_expressions_are_told_with_place_and_fix(
         ({"observe": ["to lidar"]}, "`lidar` is no point"),
         ({"observe": "position"}, "give a list"),
         ({"values": {"a": [1.0]}}, "`a` has 1 numbers for 2 robots"),
-        ({"values": {"my share": 1.0}}, "`my share` is no name"),
-        ({"measures": {"a: Int": "1"}}, "the type `Int` is none of Bool, Float and Point"),
+        ({"values": {"my share": 1.0}}, "`my share` is not a name"),
+        ({"measures": {"a: Int": "1"}}, "the type `Int` is not Bool, Float or Point"),
     ],
 )
 def test_wrong_parts_are_refused(changes: dict[str, Any], message: str) -> None:

@@ -1,7 +1,7 @@
 //! An axis of a sweep: a field of the scenario and the values that it takes.
 //!
-//! `FIELD=A,B,C` lists values as scenarios have them, with units. `FIELD=LOW..HIGH:N` gives N evenly spaced values, both
-//! ends included. Commas and points within quotes, brackets and braces belong to a value.
+//! `FIELD=A,B,C` lists values as scenarios have them, with units. `FIELD=LOW..HIGH:N` gives N evenly spaced values,
+//! both ends included. Commas and points within quotes, brackets and braces belong to a value.
 
 use crate::Error;
 use serde::{Deserialize, Serialize};
@@ -43,7 +43,7 @@ impl Axis {
     /// Reads `network.loss=0..0.4:9` or `fleet=4,8,16`. A single value is an axis too.
     ///
     /// # Errors
-    /// Where there is no value, a range is not one, or a value is given twice.
+    /// There is no value, a range is invalid, or a value is given twice.
     pub fn parse(assignment: &str) -> Result<Axis, Error> {
         let Override { path, value, .. } = Override::set(assignment).map_err(Error::Problem)?;
         let option = option(&path);
@@ -91,8 +91,8 @@ impl Axis {
         self.values.len() > 1 || self.field == FLEET
     }
 
-    /// The field with its first value, as `--set` takes it: the scenario may need a field that is an axis, so it is read
-    /// with this. None for the number of robots, which is no field.
+    /// The field with its first value, in the form of `--set`: the scenario may need a field that is an axis, so it is
+    /// read with this value. None for the number of robots, which is not a field.
     pub fn first_setting(&self) -> Option<String> {
         (self.field != FLEET).then(|| format!("{}={}", self.field, self.values[0]))
     }
@@ -166,7 +166,7 @@ fn split(text: &str) -> Vec<String> {
     trimmed.collect()
 }
 
-/// The values of `LOW..HIGH:N`; none if the text is no range.
+/// The values of `LOW..HIGH:N`; none if the text is not a range.
 fn range(text: &str, option: &str) -> Result<Option<Vec<String>>, Error> {
     let Some((low, rest)) = text.split_once("..") else {
         return Ok(None);

@@ -52,7 +52,8 @@ struct Target {
     span: Duration,
 }
 
-/// The result of one run. The same run of the same campaign gives the same on every machine, but for `cpu_seconds`.
+/// The result of one run. The same run of the same campaign gives the same result on every machine, except for
+/// `cpu_seconds`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
     /// The number of the run.
@@ -65,7 +66,7 @@ pub struct Attempt {
     pub text: String,
     /// How often something was excused that speaks against a property, and why.
     pub excused: Vec<(Name, Excuse, u64)>,
-    /// The hash of all that has happened, hexadecimal.
+    /// The hash of all events, hexadecimal.
     pub digest: String,
     /// Time that the run had of a processor, seconds.
     pub cpu_seconds: f64,
@@ -80,7 +81,7 @@ impl Campaign {
     /// The campaign of a plan that [`Campaign::plan`] gave, in this process or in another.
     ///
     /// # Errors
-    /// Where a program is not known here.
+    /// If a program is not known here.
     pub fn of_plan(plan: CampaignPlan, registry: &Registry) -> Result<Campaign, Error> {
         let subject = |target: &Target| -> Result<Subject, Error> {
             let application = read(&target.inputs.request, &target.inputs, registry)?;

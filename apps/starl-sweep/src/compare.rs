@@ -61,7 +61,7 @@ pub struct Pair {
     pub violated_by_a: Vec<String>,
     /// The properties that B violates.
     pub violated_by_b: Vec<String>,
-    /// Whether A did what it should and B does not.
+    /// Whether A succeeded and B did not.
     pub is_worse: bool,
 }
 
@@ -98,7 +98,7 @@ impl Comparison {
         }
     }
 
-    /// How many seeds B runs worse than A: A did what it should, and B does not.
+    /// The number of seeds that became worse: A succeeded, and B did not.
     pub fn worse(&self) -> usize {
         self.changed.iter().filter(|pair| pair.is_worse).count()
     }

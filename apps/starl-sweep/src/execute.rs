@@ -5,7 +5,7 @@ use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 
-/// A row, and what it cost on this machine.
+/// A row, and its cost on this machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// The result of the run.
@@ -15,8 +15,8 @@ pub struct Measured {
     pub cpu_seconds: f64,
 }
 
-/// Runs tasks on so many threads, and gives each row to `take` as it comes, with the key of its task. Ends early when `stop`
-/// is set; runs under way are then given up.
+/// Runs tasks on this number of threads, and passes each finished row to `take`, with the key of its task. Ends early
+/// when `stop` is set; current runs are then cancelled.
 ///
 /// # Errors
 /// The first error of a task or of `take`.
@@ -37,7 +37,7 @@ pub fn execute<K: Send>(
 }
 
 impl Runner {
-    /// Runs a task to its end and measures what it costs; none if `stop` was set before.
+    /// Runs a task to its end and measures its cost; none if `stop` was set before.
     ///
     /// # Errors
     /// As for [`run_task`](crate::run_task).

@@ -1,7 +1,7 @@
-//! The journal of a sweep: rows as they come, so that a sweep that was stopped, however hard, goes on where it was.
+//! The journal of a sweep: its finished rows, so that a sweep that was stopped in any way continues where it was.
 //!
-//! The first line says which plan the journal belongs to; every other line is a row. A line counts once it is complete:
-//! the torn last line of a process that was killed is cut off. While a sweep writes to its journal, no other one can.
+//! The first line says which plan the journal belongs to; every other line is a row. Only complete lines count: the
+//! incomplete last line of a killed process is removed. A journal has one writer at a time.
 
 use crate::{Axis, Error, Measured, Plan, Seeds};
 use serde::{Deserialize, Serialize};
@@ -72,7 +72,7 @@ impl Journal {
     /// Opens the journal at `path`, or begins one, and returns the rows that it has, by number.
     ///
     /// # Errors
-    /// Where the file belongs to another plan, is damaged, is in use by another process, or cannot be read or written.
+    /// If the file belongs to another plan, is damaged, is in use by another process, or cannot be read or written.
     pub fn open(path: &Path, plan: &Plan) -> Result<(Journal, BTreeMap<u64, Measured>), Error> {
         let mut options = OpenOptions::new();
         let options = options.read(true).write(true).create(true).truncate(false);
@@ -110,7 +110,7 @@ impl Journal {
     /// Adds a row. It is in the file when this returns.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// If the file cannot be written.
     pub fn write(&mut self, row: &Measured) -> Result<(), Error> {
         self.line(row)
     }

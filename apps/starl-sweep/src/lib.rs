@@ -1,12 +1,12 @@
-//! Sweeps: one target run with every combination of some fields' values and with many seeds. And [`Campaign`]s, which look
-//! for what goes wrong under faults.
+//! Sweeps: one target run with every combination of some fields' values and with many seeds. And [`Campaign`]s, which
+//! look for failures under faults.
 //!
 //! A [`Plan`] numbers all runs. Each is a [`Task`], plain data, which [`run_task`] turns into a [`Row`] on any machine:
 //! the same task gives the same row, digest included, in any process and on any number of threads. [`execute`] runs
-//! tasks on the cores of one machine, a [`Journal`] keeps rows as they come, a [`Table`] writes them to a file, and
+//! tasks on the cores of one machine, a [`Journal`] keeps finished rows, a [`Table`] writes them to a file, and
 //! [`Summary`] and [`Comparison`] condense them.
 //!
-//! Invariant: nothing here prints, and nothing but [`Journal`] and the fields `cpu_seconds` depends on the machine.
+//! Invariant: this crate does not print, and only [`Journal`] and the fields `cpu_seconds` depend on the machine.
 
 mod axis;
 mod campaign;

@@ -73,7 +73,7 @@ impl Metric {
     /// The metric of this name.
     ///
     /// # Errors
-    /// Where there is none; the message has the nearest name.
+    /// There is no such metric; the message has the nearest name.
     pub fn by_name(name: &str) -> Result<&'static Metric, Error> {
         let found = METRICS.iter().find(|metric| metric.name == name);
         found.ok_or_else(|| {

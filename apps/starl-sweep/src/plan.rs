@@ -35,7 +35,7 @@ impl Plan {
     /// combinations name.
     ///
     /// # Errors
-    /// Where an axis is given twice, the profile does not exist, or some combination has errors: all of the first one that
+    /// If an axis is given twice, the profile does not exist, or some combination has errors: all of the first one that
     /// has.
     pub fn new(
         target: &str,
@@ -180,7 +180,7 @@ impl Plan {
         }
     }
 
-    /// The numbers of the tasks whose rows are not there yet, in order.
+    /// The numbers of the tasks without rows, in order.
     pub fn open(&self, rows: &BTreeMap<u64, Measured>) -> Vec<u64> {
         let all = 0..self.len();
         all.filter(|number| !rows.contains_key(number)).collect()

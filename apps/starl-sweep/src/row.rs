@@ -20,7 +20,7 @@ pub struct Row {
     pub goal_reached: bool,
     /// The names of the violated properties, in order, each once.
     pub violated: Vec<String>,
-    /// The hash of all that has happened, hexadecimal.
+    /// The hash of all events, hexadecimal.
     pub digest: String,
     /// When the run ended.
     pub sim_seconds: f64,
@@ -30,7 +30,7 @@ pub struct Row {
     pub robots: u64,
     /// Robots that are up at the end and have finished.
     pub robots_finished: u64,
-    /// Robots that are up at the end and whose programs cannot go on.
+    /// Robots that are up at the end and whose programs have failed.
     pub robots_failed: u64,
     /// How often properties were violated.
     pub violations: u64,
@@ -46,7 +46,7 @@ pub struct Row {
     pub messages_retransmitted: u64,
     /// Content of the datagrams handed to the network, bytes.
     pub bytes_sent: u64,
-    /// How often bodies came to touch.
+    /// The number of contacts of bodies.
     pub collisions: u64,
     /// Sum of the distances that robots covered, metres.
     pub distance_m: f64,

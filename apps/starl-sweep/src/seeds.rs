@@ -16,7 +16,8 @@ pub struct Seeds {
 const LARGEST: u64 = i64::MAX as u64;
 
 impl Seeds {
-    /// The seeds from `first` to `last`, both included; none if there is none, or one that no scenario can hold.
+    /// The seeds from `first` to `last`, both included; none if the range is empty, or has a seed beyond those of
+    /// scenarios.
     pub fn between(first: u64, last: u64) -> Option<Seeds> {
         let count = last.checked_sub(first)?.checked_add(1)?;
         (last <= LARGEST).then_some(Seeds { first, count })

@@ -1,4 +1,4 @@
-//! Work spread over threads, whose results come to the one that asked.
+//! Work spread over threads, with results on the calling thread.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
@@ -8,8 +8,8 @@ use std::thread;
 /// Results that wait to be taken, a thread.
 const MOST_WAITING: usize = 64;
 
-/// Does `work` for each of `items` on so many threads, and gives each result to `take` on this thread as it comes, in no
-/// certain order. Ends early when `stop` is set or `take` fails; work that has begun is finished and taken.
+/// Runs `work` for each of `items` on this number of threads, and passes each result to `take` on this thread, in no
+/// defined order. Ends early when `stop` is set or `take` fails; work that has begun is finished and taken.
 ///
 /// # Errors
 /// The first error of `take`.
@@ -48,7 +48,7 @@ pub fn spread<I: Send, T: Send, E>(
         drop(sender);
         let taken = results.into_iter().try_for_each(&mut take);
         for worker in workers {
-            // A bug of ours: it is told as such.
+            // A bug of ours: it is reported as such.
             if let Err(panic) = worker.join() {
                 std::panic::resume_unwind(panic);
             }

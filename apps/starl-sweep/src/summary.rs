@@ -5,7 +5,7 @@ use crate::{METRICS, Measured, Metric, Plan, Row};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The rows of a plan, as far as they are there, condensed by combination.
+/// The existing rows of a plan, condensed by combination.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
     /// In the order of the plan; also those without rows.

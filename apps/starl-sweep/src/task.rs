@@ -60,7 +60,7 @@ impl Task {
 /// Runs a task of programs that StarL ships with, or that are written in the language.
 ///
 /// # Errors
-/// Where the scenario or its programs have errors, which [`Plan::new`](crate::Plan::new) finds before.
+/// If the scenario or its programs have errors, which [`Plan::new`](crate::Plan::new) finds before.
 pub fn run_task(task: &Task) -> Result<Row, Error> {
     Runner::new(Registry::default()).run(task)
 }
@@ -74,7 +74,7 @@ pub struct Runner {
 /// Several threads may need a combination at once; the first of them prepares it.
 type Cell = Arc<OnceLock<Result<Prepared, Arc<Error>>>>;
 
-/// So many combinations are kept: tasks come in order, and threads are never far apart.
+/// The number of combinations that are kept: tasks are in order, and threads are never far apart.
 const MOST_KEPT: usize = 8;
 
 /// A combination that is read and compiled.
@@ -190,7 +190,7 @@ fn finish(run: &mut Run, task: &Task, stop: &AtomicBool) -> Option<Row> {
     Some(Row::of(run, task, counts))
 }
 
-/// The same error once more, for another task of a combination.
+/// The same error again, for another task of a combination.
 fn again(error: &Arc<Error>) -> Error {
     match &**error {
         Error::Refused(refusal) => Error::Refused(refusal.clone()),

@@ -1,12 +1,11 @@
 //! The names that the module exports.
 //!
-//! One buffer carries JSON both ways: JavaScript asks for room with [`buffer`], writes a request there, calls
-//! [`call`], and reads as many bytes as that returns from the place that [`answer`] gives. Numbers are read in place:
-//! [`poses`] and [`poses_at`], [`frames`] and [`frames_at`]. Earlier results are invalid after the next call, and
-//! memory may have grown.
+//! One buffer carries JSON both ways: JavaScript requests memory with [`buffer`], writes a request there, calls
+//! [`call`], and reads the returned number of bytes at [`answer`]. Numbers are read in place: [`poses`] and
+//! [`poses_at`], [`frames`] and [`frames_at`]. Earlier results are invalid after the next call, and memory may have
+//! grown.
 //!
-//! A panic is a fault of StarL and ends the instance: the call traps, and [`failure`] puts the message where
-//! [`answer`] says.
+//! A panic is a bug of StarL and ends the instance: the call traps, and [`failure`] writes the message to [`answer`].
 
 #![allow(
     unsafe_code,

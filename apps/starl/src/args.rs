@@ -56,13 +56,13 @@ pub enum Command {
     View(ViewArguments),
     /// Run one robot of a real fleet, until it is stopped
     Robot(RobotArguments),
-    /// Run a real fleet, ask how it is, stop it, and join what its robots recorded
+    /// Run a real fleet, show its status, stop it, and merge the traces of its robots
     Fleet {
         /// The subcommand.
         #[command(subcommand)]
         command: FleetCommand,
     },
-    /// Stand in for robots' hardware: the simulator's models behind the wire protocols of real devices
+    /// Emulate the hardware of robots: the simulator's models behind the wire protocols of real devices
     Emulate {
         /// The device to emulate.
         #[command(subcommand)]
@@ -135,7 +135,8 @@ pub struct RunArguments {
 /// The options of the robots' log.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct LogArguments {
-    /// Show what programs log, as it happens, on the error stream; with a level, what matters at least so much
+    /// Show the log lines of programs while they run, on the error stream; with a level, only lines of this level and
+    /// above
     #[arg(long, value_name = "LEVEL", num_args = 0..=1, require_equals = true, default_missing_value = "info")]
     pub log: Option<Shown>,
     /// Show the log of these robots only
@@ -392,7 +393,7 @@ pub struct ClusterArguments {
     /// on this machine; or `local` to start one here
     #[arg(long, value_name = "ADDRESS", conflicts_with = "threads")]
     pub cluster: Option<String>,
-    /// The Python with the package `starl` that speaks to the cluster [default: $STARL_PYTHON, or else python3]
+    /// The Python with the package `starl` that connects to the cluster [default: $STARL_PYTHON, or else python3]
     #[arg(long, value_name = "PATH", requires = "cluster")]
     pub python: Option<PathBuf>,
 }
@@ -482,7 +483,7 @@ pub struct SweepArguments {
     /// An example's name (see `starl list`), a scenario file, or a program: a file ending in .starl
     pub target: String,
     /// Write a row for each run to this file (.parquet, .csv or .jsonl), with a journal beside it from which an
-    /// interrupted sweep goes on
+    /// interrupted sweep continues
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Draw the first metric against the first axis to this .svg or .png file, with a line for each value of the others

@@ -1,4 +1,4 @@
-//! A recorded scenario with another text in the place of a robot's program.
+//! A recorded scenario with another text for a robot's program.
 
 use crate::failure::Failure;
 use crate::target;
@@ -12,7 +12,7 @@ use starl_sim::read::{Inputs, Loader};
 use starl_trace::Header;
 use std::path::Path;
 
-/// Reads the recorded scenario again with `program` in the place of what `robot` runs there.
+/// Reads the recorded scenario again with `program` in place of the program of `robot`.
 pub fn read(
     trace: &Path,
     header: &Header,

@@ -1,4 +1,4 @@
-//! `starl check`: all that is wrong with programs and libraries.
+//! `starl check`: reports all problems of programs and libraries.
 
 use crate::args::CheckArguments;
 use crate::console;
@@ -51,7 +51,7 @@ pub struct Examined {
 /// A file that was checked.
 pub struct Examinee {
     name: String,
-    /// None of what is no file.
+    /// `None` if there is no such file.
     identity: Option<PathBuf>,
     is_library: bool,
     checked: CheckedFile,
@@ -99,7 +99,7 @@ pub fn examine(
 }
 
 impl Examinee {
-    /// All that is wrong with it, as a person reads it.
+    /// All its problems, as text.
     pub fn render(&self, colour: Colour) -> String {
         let CheckedFile {
             source,
@@ -117,8 +117,8 @@ impl Examinee {
 
 /// The findings so far.
 struct Findings {
-    /// The files that are checked by themselves, or were told of; a library that several programs
-    /// import is told of once.
+    /// The files that are checked by themselves, or were reported; a library that several programs
+    /// import is reported once.
     told: BTreeSet<PathBuf>,
     /// How many sources were checked.
     files: usize,
@@ -178,6 +178,7 @@ impl Findings {
         let errors = console::counted(self.errors, "error");
         let warnings = console::counted(self.warnings, "warning");
         match (self.errors, self.warnings) {
+            (0, 0) if self.files == 0 => String::new(),
             (0, 0) => format!("{files}: no problems\n"),
             (0, _) => format!("{more}{files}: {warnings}\n"),
             (_, 0) => format!("{more}{files}: {errors}\n"),

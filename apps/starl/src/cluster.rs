@@ -1,8 +1,8 @@
 //! Runs on a cluster of Ray, for `--cluster`.
 //!
-//! The command plans, counts, shrinks and reports as without a cluster; only the single runs are made elsewhere. The command
-//! has no Python in it: it starts an interpreter with the package `starl`, whose module `starl._cluster` speaks to Ray, and
-//! gives it jobs on standard input. Both ends write JSON, a line a message.
+//! The command plans, counts, shrinks and reports as without a cluster; only the single runs are made elsewhere. The
+//! command does not contain Python: it starts an interpreter with the package `starl`, whose module `starl._cluster`
+//! uses Ray, and sends it jobs on standard input. Both ends write JSON, one message per line.
 
 use crate::args::ClusterArguments;
 use crate::console;
@@ -56,7 +56,8 @@ enum Answer {
 const PATIENCE: Duration = Duration::from_millis(100);
 
 impl Cluster {
-    /// Connects to the cluster that the arguments name, if they name one. Gives none also when `stop` is set before.
+    /// Connects to the cluster that the arguments name, if they name one. Returns `None` also when `stop` is set
+    /// before.
     pub fn connect(
         arguments: &ClusterArguments,
         stop: &AtomicBool,
@@ -101,8 +102,8 @@ impl Cluster {
         self.processors
     }
 
-    /// Has the runs of these numbers made, and gives each result to `take` as it comes, in no certain order. Ends early when
-    /// `stop` is set, and then no more jobs can be given.
+    /// Makes the runs with these numbers, and passes each result to `take` when it arrives, in no defined order. Ends
+    /// early when `stop` is set; then no more jobs can be sent.
     pub fn run<T: DeserializeOwned>(
         &mut self,
         work: &'static str,
@@ -220,7 +221,7 @@ fn last_line(stream: impl Read) -> Option<String> {
 
 /// Where runs are made.
 pub enum Workers {
-    /// So many threads of this process.
+    /// This number of threads of this process.
     Threads(usize),
     /// A cluster.
     Cluster(Box<Cluster>),

@@ -1,5 +1,4 @@
-//! Writes to the terminal, or to wherever the output goes. A reader that has gone away (`| head`) is
-//! no error; a disk that is full is.
+//! Writes to standard output and to the error stream. A closed reader (`| head`) is not an error; a full disk is.
 
 use crate::failure::Failure;
 use starl_catalog::disk::reason;
@@ -14,7 +13,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
         .write_all(text.as_bytes())
         .and_then(|()| output.flush());
     match written {
-        // Nothing can be told to a reader who is gone.
+        // A closed output cannot be written to.
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure(format!(
             "standard output: cannot be written: {}",
             reason(&error)

@@ -12,7 +12,7 @@ use starl_lang::diagnostic::Code;
 use starl_lang::explain::StateMachine;
 use std::path::{Path, PathBuf};
 
-/// Draws a program, or shows the page of a code. False if the program has errors, of which is told.
+/// Draws a program, or shows the page of a code. False if the program has errors, which are printed.
 pub fn run(arguments: &ExplainArguments) -> Result<bool, Failure> {
     let mut codes = Code::ALL.iter();
     let asked = |code: &&Code| code.number().eq_ignore_ascii_case(&arguments.program);
@@ -58,6 +58,12 @@ fn by_suffix(path: &Path) -> Option<Drawing> {
     }
 }
 
+/// Whether the argument has the form of a code: `E0201`.
+fn is_code(word: &str) -> bool {
+    let digits = word.strip_prefix(['E', 'e', 'W', 'w']);
+    digits.is_some_and(|digits| digits.len() == 4 && digits.parse::<u16>().is_ok())
+}
+
 /// Resolves the argument; an example takes precedence over a file.
 fn find(program: &str) -> Result<Source, Failure> {
     if let Some(example) = examples::find(program) {
@@ -72,6 +78,9 @@ fn find(program: &str) -> Result<Source, Failure> {
         "-" => Ok(Source::Input),
         _ if path.is_dir() => Err(Failure::file(&path, "is a folder; name the program in it")),
         _ if path.exists() => Ok(Source::File(path)),
+        _ if is_code(program) => Err(Failure(format!(
+            "{program}: there is no error or warning with this code; `starl check` prints the code of each problem"
+        ))),
         _ => Err(no_example(program, "program")),
     }
 }

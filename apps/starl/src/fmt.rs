@@ -1,7 +1,6 @@
-//! `starl fmt`: lays programs out in the one canonical way.
+//! `starl fmt`: formats programs in the standard layout.
 //!
-//! Invariant: a file is there whole, as it was or as it is to be, at every moment; one with errors in
-//! its text stays as it is.
+//! Invariant: a file is replaced atomically, and a file with syntax errors is not changed.
 
 use crate::args::FormatArguments;
 use crate::console;
@@ -17,7 +16,7 @@ use std::path::Path;
 
 /// The result for a source.
 enum Outcome {
-    /// It is laid out as it should be.
+    /// It is formatted.
     Same,
     /// It was formatted, or would be.
     Changed,
@@ -69,7 +68,7 @@ fn one(source: &Source, only_check: bool) -> Result<Outcome, Failure> {
     })
 }
 
-/// Puts new content in the place of a file's old one; its permissions stay.
+/// Puts new content in place of a file's old one; its permissions stay.
 fn replace(path: &Path, content: &[u8]) -> Result<(), Failure> {
     let (output, mut file) = Output::create(path)?;
     let write = |file: &mut File| {

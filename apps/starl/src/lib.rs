@@ -91,9 +91,9 @@ pub struct CommandLine {
 }
 
 impl CommandLine {
-    /// With one more program: its name in scenarios, what it does in one line for `list`, and how a robot's
-    /// program is made from the `parameters` of the scenario. A scenario that gives a parameter for which
-    /// `make` does not ask is refused.
+    /// Adds a program: its name in scenarios, its summary in one line for `list`, and a function that makes a robot's
+    /// program from the `parameters` of the scenario. A scenario with a parameter that `make` does not request is
+    /// rejected.
     ///
     /// # Panics
     /// If the name is empty, is taken, or ends in `.starl`, which names files.
@@ -146,7 +146,7 @@ impl CommandLine {
     }
 }
 
-/// Says what is wrong with the arguments, or what was asked for, such as the help.
+/// Prints an error in the arguments, or the text that was requested, such as the help.
 fn refuse(error: &clap::Error) -> ExitCode {
     let argument = error.get(ContextKind::InvalidArg);
     if let (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) = (error.kind(), argument)
@@ -155,7 +155,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
     {
         // A field and its value as two words: the parser would say that `-- -1` passes a value.
         let message = format!(
-            "{word} belongs to no option; fields are set in one word, as in --set parameters.count={word}"
+            "{word} does not belong to an option; join a value to its option, as in --set parameters.count={word}"
         );
         console::error(&message);
         return ExitCode::from(2);

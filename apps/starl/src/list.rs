@@ -1,4 +1,4 @@
-//! `starl list`: what there is to run, and to run it with.
+//! `starl list`: the examples, programs, models and planners.
 
 use crate::args::ListArguments;
 use crate::failure::Failure;

@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use clap::ValueEnum;
 use starl_core::event::{Event, Level};
 use starl_core::{Record, RobotId};
+use starl_sim::read::suggest;
 use starl_sim::scenario::Fleet;
 use std::fmt::Write;
 
@@ -15,7 +16,7 @@ use std::fmt::Write;
 pub enum Shown {
     /// All lines.
     Debug,
-    /// All but those for debugging; lines of programs in the StarL language have this level.
+    /// All except those for debugging; lines of programs in the StarL language have this level.
     Info,
     /// Lines about something that is probably wrong, and errors.
     Warning,
@@ -34,7 +35,7 @@ impl Shown {
     }
 }
 
-/// Shows lines of the log as they come.
+/// Shows lines of the log during the run.
 pub struct Log {
     least: Level,
     /// The robots whose lines are shown; all if none are named.
@@ -54,7 +55,12 @@ impl Log {
         let robots = || (0..fleet.len() as u32).map(RobotId);
         let find = |name: &String| {
             let found = robots().find(|&robot| fleet.name(robot) == *name);
-            found.ok_or_else(|| Failure(format!("--log-robots: there is no robot {name}")))
+            found.ok_or_else(|| {
+                let names: Vec<String> = robots().map(|robot| fleet.name(robot)).collect();
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                let help = suggest::help(name, &names, "the robots are").unwrap_or_default();
+                Failure(format!("--log-robots: there is no robot {name}; {help}"))
+            })
         };
         let only = match &arguments.log_robots[..] {
             [] => None,

@@ -1,5 +1,5 @@
-//! Where the files of a run come from: the folder of its scenario, or the command itself for those of
-//! an example; and the folder of a program that is run in another scenario.
+//! The origin of the files of a run: the folder of its scenario, or the command itself for those of an example; and the
+//! folder of a program that runs in another scenario.
 //!
 //! A scenario knows its files by their paths from its own folder. A program from elsewhere gets such a
 //! path too, and with it the libraries beside it, so that a trace can hold all of them under their names.
@@ -13,7 +13,7 @@ use starl_sim::read::Loader;
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
-/// Where files come from.
+/// The origin of files.
 pub struct Origin {
     scenario: Scenario,
     /// The folder of a program from elsewhere, for scenarios that have no folder themselves.
@@ -64,7 +64,7 @@ impl Origin {
         }
     }
 
-    /// Whether this is where the default scenario's files come from.
+    /// Whether this is the origin of the default scenario's files.
     pub fn is_default(&self) -> bool {
         matches!(self.scenario, Scenario::Default)
     }

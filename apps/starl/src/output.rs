@@ -1,4 +1,4 @@
-//! Files that are written at the end of a run, or while it goes on.
+//! Files that are written at the end of a run, or while it continues.
 //!
 //! Invariant, but for traces: under the name that was asked for there is a whole file or what was there before, never
 //! half a file: what is written goes to a temporary file beside it, which takes the name at the end.
@@ -91,7 +91,7 @@ impl Drop for Output {
     }
 }
 
-/// Opens a file under its own name; what it held is gone. It is a regular file unless the name is that of a
+/// Opens a file under its own name and discards its old content. It is a regular file unless the name is that of a
 /// pipe, a device or the like.
 pub fn create_now(path: &Path) -> Result<File, Failure> {
     let is_special = is_special(path)?;

@@ -24,7 +24,7 @@ pub enum Picture {
 }
 
 impl Picture {
-    /// The kind that a file is to hold, by its name.
+    /// The kind of picture, by the file's name.
     pub fn of(path: &Path) -> Result<Picture, Failure> {
         Picture::given_as(path, "--plot")
     }
@@ -95,7 +95,7 @@ impl Outputs {
         })
     }
 
-    /// Takes in what happened next.
+    /// Adds the next record.
     pub fn observe(&mut self, record: &Record) -> Result<(), Failure> {
         if let Some(trace) = &mut self.trace {
             trace.write(record)?;
@@ -106,7 +106,7 @@ impl Outputs {
         Ok(())
     }
 
-    /// Takes in where the run is after a step, once all that happened in it was observed.
+    /// Adds the state of the run after a step, when all records of the step have been observed.
     pub fn advance(&mut self, simulation: &Simulation) -> Result<(), Failure> {
         match &mut self.trace {
             Some(trace) => trace.advance(simulation.journal(), simulation.now()),

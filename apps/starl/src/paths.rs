@@ -70,7 +70,7 @@ impl Paths {
         }
     }
 
-    /// Takes in what happened next.
+    /// Adds the next record.
     pub fn observe(&mut self, record: &Record) {
         let Some(robot) = record.robot else {
             if let Event::Intervention(what) = &record.event {

@@ -7,7 +7,7 @@ use starl_core::{Duration, Time};
 pub struct Progress(ProgressBar);
 
 impl Progress {
-    /// A bar for a run of at most this long; where the error stream is no terminal it shows nothing.
+    /// A bar for a run of at most this long; it shows nothing if the error stream is not a terminal.
     pub fn new(shown: bool, longest: Duration) -> Progress {
         let millis = longest.0 / 1_000_000;
         let bar = match shown {
@@ -24,7 +24,7 @@ impl Progress {
         Progress(bar)
     }
 
-    /// The run has come this far.
+    /// Shows the progress of the run.
     pub fn advance(&self, now: Time) {
         if !self.0.is_hidden() {
             self.0.set_position(now.0 / 1_000_000);
@@ -43,11 +43,11 @@ impl Progress {
     }
 }
 
-/// Shows how many of so many things are done.
+/// Shows the number of finished items.
 pub struct Count(ProgressBar);
 
 impl Count {
-    /// A bar for so many; where the error stream is no terminal it shows nothing.
+    /// A bar for so many; it shows nothing if the error stream is not a terminal.
     pub fn new(shown: bool, total: u64) -> Count {
         let bar = match shown {
             true => {
@@ -63,13 +63,13 @@ impl Count {
         Count(bar)
     }
 
-    /// So many were done before, and say nothing about the time that is left.
+    /// Sets the number of items that were done before; they do not affect the estimate of the remaining time.
     pub fn begin_at(&self, done: u64) {
         self.0.set_position(done);
         self.0.reset_eta();
     }
 
-    /// So many more are done.
+    /// Adds finished items.
     pub fn add(&self, more: u64) {
         self.0.inc(more);
     }

@@ -53,8 +53,12 @@ pub fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
     if path.is_dir() {
         return Err(Failure::file(path, "is a folder; name the trace in it"));
     }
-    let file = File::open(path)
-        .map_err(|error| Failure::file(path, format!("cannot be read: {}", reason(&error))))?;
+    let file = File::open(path).map_err(|error| {
+        Failure::file(
+            path,
+            format!("cannot be read: {}; check the path", reason(&error)),
+        )
+    })?;
     Reader::new(BufReader::new(file)).map_err(|error| unreadable(path, &error))
 }
 

@@ -1,5 +1,5 @@
-//! `starl replay --robot`: runs one robot's software again on its recorded inputs, with no simulator, and
-//! compares what it asks for bit by bit.
+//! `starl replay --robot`: runs one robot's software again on its recorded inputs, without the simulator, and compares
+//! its effects bit by bit.
 
 use crate::args::ReplayArguments;
 use crate::changed_program;

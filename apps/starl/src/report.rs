@@ -8,7 +8,7 @@ use starl_properties::{Excuse, Violation};
 use starl_sim::scenario::Goal;
 use starl_sim::{Outcome, Run, Scenario};
 
-/// All that is told of a run. As JSON its fields are described in `docs/reference/command.md`.
+/// The report of a run. As JSON its fields are described in `docs/reference/command.md`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     pub target: String,
@@ -36,7 +36,7 @@ pub struct Report {
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// It came to its end.
+    /// It ended.
     Over(Outcome),
     /// Someone stopped it.
     Interrupted,
@@ -52,7 +52,7 @@ pub struct Property {
     pub excused: Vec<Excused>,
 }
 
-/// How often something that speaks against a property was excused for one reason.
+/// The number of excused violations of a property, for one reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Excused {
     pub reason: &'static str,
@@ -76,7 +76,7 @@ pub struct Breach {
     pub text: String,
 }
 
-/// A program that could not go on.
+/// A program that could not continue.
 #[derive(Clone, Debug, Serialize)]
 pub struct Failed {
     pub at_seconds: f64,
@@ -180,7 +180,7 @@ impl Report {
         self.goal == LASTS
     }
 
-    /// The properties of which something that they demand has not come.
+    /// The open properties: a condition that they demand is still false.
     pub fn open(&self) -> impl Iterator<Item = &str> {
         let open = self
             .properties

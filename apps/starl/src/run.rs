@@ -1,4 +1,4 @@
-//! `starl run`: runs a scenario in the simulator and tells what came of it.
+//! `starl run`: runs a scenario in the simulator and reports the result.
 
 use crate::args::{PageArguments, RunArguments};
 use crate::failure::Failure;
@@ -69,7 +69,7 @@ pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failur
     Ok(report.is_success())
 }
 
-/// A run of what was read, at its start.
+/// A run of the application, at its start.
 pub fn start(application: &Application) -> Result<Run, Failure> {
     let run = application.run();
     run.map_err(|error| start_error(application, &error))
@@ -82,7 +82,7 @@ pub fn start_error(application: &Application, error: &StartError) -> Failure {
     resolved.problem(&field, &error.message, None).into()
 }
 
-/// Lets the run go on to its end, or until someone stops it.
+/// Lets the run continue to its end, or until someone stops it.
 fn drive(
     run: &mut Run,
     outputs: &mut Outputs,

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// The suffix of a file of the language.
 const SUFFIX: &str = "starl";
 
-/// Where a text comes from.
+/// The source of a text.
 #[derive(Clone, Debug)]
 pub enum Source {
     /// `-`
@@ -37,7 +37,7 @@ impl Source {
         }
     }
 
-    /// The file on disk, the same however it is named; none of what is no file.
+    /// The canonical path of the file on disk; none if it is not a file.
     pub fn identity(&self) -> Option<PathBuf> {
         match self {
             Source::File(path) => Some(identity(path)),
@@ -85,7 +85,7 @@ impl Source {
     }
 }
 
-/// Libraries in the folder of what imports them, then those of the standard library.
+/// Libraries in the folder of the importing file, then those of the standard library.
 pub struct Beside {
     folder: Folder,
     found: RefCell<BTreeMap<String, PathBuf>>,
@@ -98,8 +98,8 @@ enum Folder {
 }
 
 impl Beside {
-    /// The files that were brought so far, by the names of their libraries; none of the standard
-    /// library, which are part of the command.
+    /// The files loaded so far, by the names of their libraries, without those of the standard library, which are part
+    /// of the command.
     pub fn found(&self) -> BTreeMap<String, PathBuf> {
         self.found.borrow().clone()
     }
@@ -158,8 +158,8 @@ fn of_example(example: &Example, name: &str) -> Option<String> {
     String::from_utf8(content.to_vec()).ok()
 }
 
-/// The sources that arguments name, each once, and what is wrong with the others. A folder stands for
-/// the programs and libraries in it and below it, in the order of their paths.
+/// The sources that arguments name, each once, and the problems of the others. A folder means all programs and
+/// libraries in it and its subfolders, in the order of their paths.
 pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
     let mut sources = Vec::new();
     let mut failures = Vec::new();
@@ -198,7 +198,7 @@ fn programs(folder: &Path, files: &mut Vec<PathBuf>, failures: &mut Vec<Failure>
     let mut entries = match entries {
         Ok(entries) => entries,
         Err(error) => {
-            let message = format!("cannot be read: {}", reason(&error));
+            let message = format!("cannot be read: {}; check the path", reason(&error));
             failures.push(Failure::file(folder, message));
             return;
         }
@@ -223,7 +223,7 @@ fn programs(folder: &Path, files: &mut Vec<PathBuf>, failures: &mut Vec<Failure>
     }
 }
 
-/// Tells of all that could not be read or written but the last, which is what the command fails with.
+/// Prints all failures except the last, which the command returns.
 pub fn fail(mut failures: Vec<Failure>) -> Result<(), Failure> {
     let Some(last) = failures.pop() else {
         return Ok(());

@@ -22,7 +22,7 @@ pub fn text(report: &Report) -> String {
     text
 }
 
-/// The violations and failures alone: what is said even when nothing else is to be.
+/// The violations and failures alone, which `--quiet` also prints.
 pub fn violations(report: &Report) -> String {
     let mut text = String::new();
     let _ = failures(&mut text, report);
@@ -100,7 +100,7 @@ fn ending(report: &Report) -> String {
         Ending::Over(Outcome::Reached) => match &report.open().collect::<Vec<_>>()[..] {
             [] => format!("goal reached after {at}"),
             open => format!(
-                "goal reached after {at}, but what {} demands has not come",
+                "goal reached after {at}, but {} is still open",
                 listed(open)
             ),
         },
@@ -116,7 +116,7 @@ fn ending(report: &Report) -> String {
                 1 => "1 robot".to_string(),
                 many => format!("{many} robots"),
             };
-            format!("failed after {at}: {robots} cannot go on; {done}")
+            format!("failed after {at}: {robots} cannot continue; {done}")
         }
         Ending::Interrupted => format!("interrupted after {at}; {done}"),
     }
@@ -268,7 +268,7 @@ fn verdict_line(
     Ok(())
 }
 
-/// More programs that cannot go on are counted, not listed.
+/// More programs that cannot continue are counted, not listed.
 const MOST_FAILURES_LISTED: usize = 8;
 
 fn failures(text: &mut String, report: &Report) -> fmt::Result {

@@ -1,4 +1,4 @@
-//! Finds what `starl run TARGET` means, and reads it with all that the command line changes.
+//! Finds the target of `starl run TARGET`, and reads it with the changes of the command line.
 
 use crate::args::RunArguments;
 use crate::console;
@@ -27,7 +27,7 @@ pub struct Selection {
     pub application: Application,
     /// The files on disk that it was read from.
     pub files: Vec<PathBuf>,
-    /// Where the files that the scenario names come from.
+    /// The origin of the files that the scenario names.
     pub origin: Origin,
 }
 
@@ -78,7 +78,7 @@ fn files(arguments: &RunArguments, origin: &Origin, inputs: &Inputs) -> Vec<Path
     files
 }
 
-/// Tells of warnings, once.
+/// Prints each warning once.
 fn warn(application: &Application, origin: &Origin) {
     for findings in application.warnings() {
         let text = findings.render(&origin.name(findings), console::colour_of_errors());
@@ -94,7 +94,7 @@ fn warn(application: &Application, origin: &Origin) {
     }
 }
 
-/// Tells of programs with errors, each with its lines; the failure sums them up.
+/// Prints the errors of programs, each with its lines; the failure sums them up.
 pub fn refused(refusal: Refusal) -> Failure {
     tell(&refusal, |findings| findings.name.clone())
 }
@@ -112,8 +112,7 @@ pub fn tell(refusal: &Refusal, name: impl Fn(&Findings) -> String) -> Failure {
     Failure(sums.join("\n"))
 }
 
-/// Puts a program in the place of the scenario's own. The scenario's parameters were meant for that, so
-/// they go with it.
+/// Puts a program in place of the scenario's own. The scenario's parameters were meant for that, so they go with it.
 fn replacing(target: &str, key: &str, scenario: &Source, origin: &Origin) -> Vec<Override> {
     let mut overrides = vec![Override::named(target, "program", key)];
     if !names(scenario, origin, key) {
@@ -240,7 +239,7 @@ pub fn no_example(name: &str, other: &str) -> Failure {
 /// The text of a file.
 pub fn text(path: &Path) -> Result<String, Failure> {
     let bytes = disk::read(path)
-        .map_err(|error| Failure::file(path, format!("cannot be read: {error}")))?;
+        .map_err(|error| Failure::file(path, format!("cannot be read: {error}; check the path")))?;
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();

@@ -24,7 +24,7 @@ pub fn for_runs(asked: Option<u32>) -> usize {
     }
 }
 
-/// Does `job` where so many threads are at hand.
+/// Runs `job` with this number of threads.
 pub fn with<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     Ok(match pool(threads)? {
         Some(pool) => pool.install(job),
@@ -32,7 +32,7 @@ pub fn with<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> Result<T
     })
 }
 
-/// So many threads; none where one is enough, which is there already.
+/// A pool of this number of threads; none for one thread, which exists already.
 pub fn pool(threads: usize) -> Result<Option<ThreadPool>, Failure> {
     if threads <= 1 {
         return Ok(None);

@@ -1,9 +1,9 @@
-//! The file of a trace while its run goes on. It is never thrown away.
+//! The file of a trace during its run. It is never discarded.
 //!
-//! Invariant: from the start of the run there is a file under the name that was asked for, and it can be
-//! read. It holds all chunks that are full, and behind them, once a second, the messages of the chunk in
-//! the making; so even a process that is killed loses no more than a second, or a chunk that it was just
-//! writing. A finished trace does not show any of this: how long a run took makes no difference to it.
+//! Invariant: from the start of the run there is a readable file under the requested name. It contains all full chunks,
+//! followed by the messages of the current chunk, which are rewritten once a second. So a killed process loses at most
+//! a second, or the chunk that it was writing. A finished trace contains no sign of this, so the wall time of a run
+//! does not change it.
 
 use crate::failure::Failure;
 use crate::output::create_now;
@@ -106,13 +106,14 @@ impl TraceOutput {
         })
     }
 
-    /// Takes in what happened next.
+    /// Writes the next record.
     pub fn write(&mut self, record: &Record) -> Result<(), Failure> {
         let written = self.writer.write(record);
         self.check(written)
     }
 
-    /// Takes in that all up to `now` was written, and what was done to robots' software since the last time.
+    /// Advances to `now`, when all records until then are written, with the calls of robots' software since the last
+    /// time.
     pub fn advance(&mut self, journal: &Batch, now: Time) -> Result<(), Failure> {
         if let Some((at, inputs)) = self.packer.pack(journal) {
             let written = self.writer.inputs(at, &inputs);
@@ -125,13 +126,13 @@ impl TraceOutput {
         }
     }
 
-    /// Puts all that was written into the file now, so that it is there even if the process is killed.
+    /// Flushes all records to the file, so that they are there even if the process is killed.
     pub fn save(&mut self) -> Result<(), Failure> {
         let saved = self.ending.save(self.writer.unfinished());
         self.check(saved.map_err(|error| output_error(&error)))
     }
 
-    /// How many bytes the file has, without what is still in memory.
+    /// The size of the file in bytes, without the records that are still in memory.
     pub fn size(&self) -> u64 {
         self.ending.start + self.ending.saved as u64
     }
@@ -218,9 +219,9 @@ impl Ending {
         let end = self.start + self.saved as u64;
         let cut = self.file.set_len(end);
         let kept = match (whole, cut) {
-            (_, Err(error)) => format!("what is in the file may be damaged: {error}"),
+            (_, Err(error)) => format!("the file may be damaged: {error}"),
             (true, Ok(())) => format!("all up to {now} is kept in it"),
-            (false, Ok(())) => format!("what fitted of all up to {now} is kept in it"),
+            (false, Ok(())) => format!("everything that fitted until {now} is kept in it"),
         };
         Failure::file(
             path,

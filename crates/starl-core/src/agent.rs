@@ -24,7 +24,7 @@ impl Agent {
         }
     }
 
-    /// The same on a robot with storage, and what it holds.
+    /// The same on a robot with storage, with its saved values.
     pub fn with_saved(self, saved: Option<Arc<Saved>>) -> Agent {
         Agent { saved, ..self }
     }
@@ -75,19 +75,19 @@ impl Agent {
         self.program.corrupt(random);
     }
 
-    /// Writes all that makes a difference to what the robot does from now on; false where its program
-    /// does not: see [`Program::write_state`].
+    /// Writes everything that the robot's further behaviour depends on. Returns false if its program does not support
+    /// this: see [`Program::write_state`].
     pub fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
         self.program.write_state(text) && write!(text, "{:x}", self.random.preview()).is_ok()
     }
 
-    /// The random stream, as far as it was drawn from.
+    /// The random stream in its present state.
     pub fn random(&self) -> &Random {
         &self.random
     }
 
-    /// Lets a watcher ask the program something that takes a handle to its robot, such as which of its guards
-    /// hold. Nothing comes of it: effects are thrown away, and random numbers come from a copy of the stream.
+    /// Lets an observer call a method of the program that takes a handle to its robot, for example to find its enabled
+    /// guards. The call changes nothing: effects are discarded, and random numbers are drawn from a copy of the stream.
     pub fn rehearse<T>(
         &self,
         view: &View<'_>,

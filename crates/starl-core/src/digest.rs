@@ -1,12 +1,12 @@
-//! A running hash of what happened, to tell whether two runs are the same.
+//! A running hash of events, which shows whether two runs are equal.
 
 use crate::event::Event;
 use crate::geometry::{Point, Pose};
 use crate::{Destination, RobotId, Time};
 use core::fmt;
 
-/// Folds events into 64 bits, the same on every target. Not a cryptographic hash: it tells runs
-/// apart, it does not guard against forgery.
+/// Folds events into 64 bits, the same on every target. It is not a cryptographic hash: it distinguishes runs but does
+/// not protect against forgery.
 ///
 /// Each word is multiplied into the state and the high half of the product folded onto the low one
 /// (the "folded multiply" of wyhash and of AHash).

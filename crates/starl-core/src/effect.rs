@@ -51,7 +51,7 @@ pub enum Effect {
     Save(Save),
     /// The program has reached its goal. It still answers messages.
     Finish,
-    /// The program cannot go on; the text says why. It is not called again.
+    /// The program cannot continue; the text says why. It is not called again.
     Fail(Name),
 }
 
@@ -75,7 +75,7 @@ pub struct Effects {
 pub(crate) struct Scratch(Option<Box<dyn Any + Send + Sync>>);
 
 impl Scratch {
-    /// Takes what was kept; none if there is nothing or something of another type.
+    /// Takes the kept value; none if there is none, or one of another type.
     pub fn take<T: Any + Send + Sync>(&mut self) -> Option<Box<T>> {
         self.0.take()?.downcast().ok()
     }

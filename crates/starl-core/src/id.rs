@@ -20,8 +20,8 @@ impl fmt::Display for RobotId {
     }
 }
 
-/// The endpoint on a robot that a message or timer is for: the program itself, or one instance of a
-/// primitive. Instances that are to talk to each other on different robots carry the same name.
+/// The endpoint on a robot that a message or timer is for: the program itself, or one instance of a primitive.
+/// Instances on different robots that communicate have the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Port(pub u32);
 

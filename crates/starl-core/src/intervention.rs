@@ -1,7 +1,7 @@
-//! Whatever steers a run from outside: faults, changes of the world and of the network, operators.
+//! Interventions steer a run from outside: faults, changes of the world and of the network, orders of operators.
 //!
-//! A test, a schedule, a mouse or an operator steers a run by the same few interventions. Each is on
-//! record, so that a run that was steered can be repeated.
+//! Tests, schedules, the viewer and operators use the same few interventions. Each is recorded, so that a steered run
+//! can be repeated.
 
 use crate::event::{Fields, Name, Value};
 use crate::geometry::Shape;
@@ -24,7 +24,7 @@ pub enum Intervention {
         /// How far, world frame, metres.
         by: Point,
     },
-    /// The network changes: later knobs of the list come after earlier ones.
+    /// The network changes; later changes of the list override earlier ones.
     Network(Vec<NetworkKnob>),
     /// An obstacle appears. It gets the next free index of the world.
     AddObstacle {
@@ -45,8 +45,7 @@ pub enum Intervention {
         /// Its index in the world.
         index: u32,
     },
-    /// A waypoint appears, or the one of this name moves. Programs hear of it as of an order named
-    /// `way_points`.
+    /// A waypoint appears, or the one of this name moves. Programs receive an order named `way_points`.
     SetWayPoint(WayPoint),
     /// A waypoint vanishes.
     RemoveWayPoint {
@@ -81,7 +80,7 @@ pub enum Intervention {
         /// Where it starts.
         pose: Pose,
     },
-    /// Robots leave for good: their software stops and their bodies are taken away.
+    /// Robots leave permanently: their software stops and their bodies are taken away.
     Leave(Vec<RobotId>),
 }
 
@@ -239,9 +238,9 @@ pub enum FaultKind {
     Partition(Vec<Vec<RobotId>>),
     /// Robots of a group are heard neither by groups before theirs nor by robots in no group, and hear them all.
     OneWay(Vec<Vec<RobotId>>),
-    /// All partitions end, and all that hinders in one direction.
+    /// All partitions end, including those in one direction.
     Heal,
-    /// The motors act as if told to stop, whatever the program commands.
+    /// The motors stop, whatever the program commands.
     StuckMotor(Vec<RobotId>),
     /// Sensors and positioning repeat their last readings.
     FrozenSensor(Vec<RobotId>),
@@ -330,7 +329,7 @@ pub enum DelayDistribution {
     /// Normal, cut off at zero.
     #[default]
     Normal,
-    /// The mean less the jitter, plus an exponential part whose mean is the jitter.
+    /// The mean minus the jitter, plus an exponential part whose mean is the jitter.
     Exponential,
 }
 

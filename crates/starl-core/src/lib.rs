@@ -1,4 +1,4 @@
-//! The contract all StarL layers meet at.
+//! The interfaces between StarL's layers.
 //!
 //! A robot's program and each of its primitives is a pure state machine. Its host passes it an
 //! input (a start, a message, a timer, a position estimate, an activation) together with a

@@ -1,7 +1,7 @@
 //! Transcendental functions that give the same bits on every target.
 //!
-//! The standard library's differ between glibc and WebAssembly; these come from `libm`. Square root,
-//! floor and the like are exact in IEEE 754 and may be used from wherever they come.
+//! The standard library's differ between glibc and WebAssembly; these come from `libm`. Square root, floor and similar
+//! functions are exact in IEEE 754, so those of the standard library may be used.
 
 pub use core::f64::consts::{FRAC_PI_2, PI, TAU};
 pub use exact::{ceil, fabs, floor, sqrt};

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use smallvec::SmallVec;
 
-/// A message's bytes. Short ones, which are most, are held in place.
+/// A message's bytes. Short messages, the most common ones, are stored inline.
 pub type Payload = SmallVec<[u8; 24]>;
 
 /// A message between robots: bytes for one endpoint.

@@ -1,7 +1,7 @@
-//! The interface between programs and whatever moves the robot (the thesis's RobotMotion).
+//! The interface between programs and the motion layer (the thesis's RobotMotion).
 //!
-//! A program or primitive asks; the host's motion layer plans, tracks waypoints and turns them into
-//! commands of the robot's own model.
+//! A program or primitive sends requests; the host's motion layer plans paths, tracks waypoints and commands the
+//! robot's model.
 
 use crate::geometry::{HeightSpan, Obstacle, Point, Pose, Twist};
 use crate::time::Time;
@@ -156,7 +156,7 @@ pub enum Planner {
 /// A request to a planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanRequest {
-    /// Comes back with the answer, [`crate::Input::Planned`].
+    /// Returned with the answer, [`crate::Input::Planned`].
     pub ticket: u32,
     /// Where to go, already [`Body::reachable`].
     pub target: Point,
@@ -177,7 +177,7 @@ pub struct PlanRequest {
 /// A request to the host's motion layer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MotionRequest {
-    /// Send this command to the model, now and until another comes.
+    /// Send this command to the model until the next request.
     Drive(Command),
     /// Find a path from the estimated pose; the answer is [`crate::Input::Planned`].
     Plan(PlanRequest),
@@ -188,6 +188,6 @@ pub enum MotionRequest {
         /// The point after this one, metres; none where the robot is to stop at `target`.
         next: Option<Point>,
     },
-    /// Stop and stay.
+    /// Stop.
     Halt,
 }

@@ -25,14 +25,12 @@ pub enum Input {
         /// Waypoints from the robot to the target; none where the planner gave up.
         path: Option<Path>,
     },
-    /// The program's failure detector believes that a robot has failed; it may be wrong. A robot that
-    /// was noticed to have restarted is suspected and trusted again at once, since it has lost what it
-    /// knew.
+    /// The program's failure detector suspects that a robot has failed; it may be wrong. When a restart is detected,
+    /// the robot is suspected and immediately trusted again, because it has lost its state.
     Suspected(RobotId),
     /// The program's failure detector trusts a robot again.
     Trusted(RobotId),
-    /// An operator tells the program something, or its waypoints have changed
-    /// ([`Order::WAY_POINTS`]).
+    /// An operator sends an order to the program, or its waypoints have changed ([`Order::WAY_POINTS`]).
     Order(Order),
     /// The robot has long been pushed harder than its drive can hold against, as a drone by strong wind, while
     /// it tracks a waypoint.

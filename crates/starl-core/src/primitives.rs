@@ -136,10 +136,10 @@ hold_none!(
     str
 );
 
-/// How derived code treats a field of whose type it knows only the name. Of the three traits that offer
-/// `way`, the compiler takes the one that needs the fewest dereferences of `&&&Probe`, among those that the
-/// type allows. So [`Visited`](field::Visited) comes first. A type that is neither `Primitives` nor `Copy` is
-/// left to [`Unknown`](field::Unknown), which fails to compile with the message of [`Primitives`].
+/// The treatment of a field in derived code, which knows only the name of its type. Three traits offer `way`; of those
+/// that the type implements, the compiler selects the one with the fewest dereferences of `&&&Probe`. So
+/// [`Visited`](field::Visited) comes first. A type that is neither `Primitives` nor `Copy` is left to
+/// [`Unknown`](field::Unknown), which fails to compile with the message of [`Primitives`].
 #[doc(hidden)]
 pub mod field {
     use super::{Primitive, Primitives};

@@ -15,7 +15,7 @@ pub enum Status {
     Running,
     /// It has reached its goal.
     Finished,
-    /// It cannot go on.
+    /// It cannot continue.
     Failed,
 }
 
@@ -64,10 +64,10 @@ pub trait Program: Primitives + DynClone + Send + Sync {
         let _ = random;
     }
 
-    /// Writes all that makes a difference to what the program does from now on, the states of its
-    /// primitives included, for hosts that tell states apart. Two programs of one robot that write the
-    /// same must answer every input alike; a derived `Debug` does this. False where the program does
-    /// not write it, so that it has to be told apart by all that has happened to it.
+    /// Writes everything that the program's further behaviour depends on, including the states of its primitives, for
+    /// hosts that compare states. Two programs of one robot that write the same text must answer every input in the
+    /// same way; a derived `Debug` does this. Returns false if the program does not support this; then its state is
+    /// identified by its history.
     fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
         let _ = text;
         false

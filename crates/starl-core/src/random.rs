@@ -1,4 +1,4 @@
-//! Seeded randomness: streams for robots, and stateless draws keyed by what is being decided.
+//! Seeded random numbers: streams for robots, and stateless draws keyed by the decision.
 
 use crate::math;
 use rand_core::{Rng, SeedableRng};
@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 /// A stream of random numbers; equal seeds and keys give equal streams on every target.
 ///
-/// PCG XSH RR 64/32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good
-/// Algorithms for Random Number Generation"). A stream that was stored goes on where it was.
+/// PCG XSH RR 64/32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for
+/// Random Number Generation"). A stored stream continues where it was.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "Place", from = "Place")]
 pub struct Random {
@@ -16,7 +16,7 @@ pub struct Random {
     place: Place,
 }
 
-/// Where a stream is: enough to go on from there.
+/// Where a stream is: enough to continue from there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Place {
     seed: u64,
@@ -54,8 +54,8 @@ impl Random {
         self.generator.next_u32()
     }
 
-    /// The next 128 bits, which stay to be drawn: they tell streams apart, since those that begin alike
-    /// go on alike.
+    /// The next 128 bits, without drawing them. Streams with equal bits have equal further numbers in practice, so this
+    /// distinguishes streams.
     pub fn preview(&self) -> u128 {
         let mut copy = self.clone();
         (0..4).fold(0, |bits, _| bits << 32 | u128::from(copy.bits()))

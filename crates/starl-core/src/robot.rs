@@ -45,7 +45,7 @@ pub struct View<'a> {
     pub obstacles: &'a Obstacles,
 }
 
-/// A program's handle to its robot: what it knows, and what it can ask for.
+/// A program's handle to its robot: the robot's knowledge, and requests to its host.
 pub struct Robot<'a> {
     view: &'a View<'a>,
     effects: &'a mut Effects,
@@ -64,7 +64,7 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// The same of a robot whose storage held this when its software started; none if it has no storage.
+    /// The same with the content of the robot's storage when its software started; none without storage.
     pub fn with_saved(self, saved: Option<&'a Saved>) -> Robot<'a> {
         Robot { saved, ..self }
     }
@@ -109,7 +109,7 @@ impl<'a> Robot<'a> {
         self.view.estimate.pose.yaw
     }
 
-    /// All that the positioning system said.
+    /// The whole estimate of the positioning system.
     pub fn estimate(&self) -> &Estimate {
         &self.view.estimate
     }
@@ -134,7 +134,7 @@ impl<'a> Robot<'a> {
         self.view.obstacles.clone()
     }
 
-    /// The same, not to be kept.
+    /// The same by reference.
     pub fn known_obstacles(&self) -> &'a Obstacles {
         self.view.obstacles
     }
@@ -183,7 +183,7 @@ impl<'a> Robot<'a> {
         self.push(Effect::Move(MotionRequest::Track { target, next }));
     }
 
-    /// Stops and stays.
+    /// Stops the robot.
     pub fn halt(&mut self) {
         self.push(Effect::Move(MotionRequest::Halt));
     }
@@ -202,7 +202,7 @@ impl<'a> Robot<'a> {
         self.emit_fields(name, named(fields));
     }
 
-    /// [`Robot::emit`] of fields whose names are not known at compile time.
+    /// [`Robot::emit`] for field names that are not known at compile time.
     pub fn emit_fields(&mut self, name: impl Into<Name>, fields: Fields) {
         let name = name.into();
         self.push(Effect::Record(Event::Program { name, fields }));
@@ -241,13 +241,13 @@ impl<'a> Robot<'a> {
         self.push(Effect::PutDown);
     }
 
-    /// Whether what is saved outlasts a crash.
+    /// Whether saved values survive a crash.
     pub fn has_storage(&self) -> bool {
         self.saved.is_some()
     }
 
     /// Saves a value of a primitive or, under [`Port::PROGRAM`], of the program: see the module [`crate::storage`].
-    /// Nothing happens where there is no storage.
+    /// Without storage this has no effect.
     pub fn save<T: Serialize>(&mut self, port: Port, key: impl Into<Name>, value: &T) {
         if self.has_storage() {
             self.save_bytes(port, key, message::encode(value));
@@ -272,7 +272,7 @@ impl<'a> Robot<'a> {
         self.push(Effect::Finish);
     }
 
-    /// Says that the program cannot go on, and why.
+    /// Says that the program cannot continue, and why.
     pub fn fail(&mut self, reason: impl Into<Name>) {
         self.push(Effect::Fail(reason.into()));
     }
@@ -291,7 +291,7 @@ impl<'a> Robot<'a> {
         self.effects.list.len()
     }
 
-    /// Takes over the effects that a handle of the same robot has collected, for software that cannot borrow this one.
+    /// Adds the effects collected by another handle of the same robot, for software that cannot borrow this one.
     pub fn absorb(&mut self, effects: Effects) {
         self.effects.list.extend(effects.list);
         self.effects.upcalls.extend(effects.upcalls);

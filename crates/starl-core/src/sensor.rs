@@ -46,7 +46,7 @@ pub struct Detection {
     pub position: Point,
 }
 
-/// The kinds of things a detector tells apart.
+/// The kinds of objects that a detector distinguishes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Detected {
     /// A thing to be found, by its index among the world's things.
@@ -67,6 +67,6 @@ pub struct Sensors<'a> {
     pub detections: &'a [Detection],
     /// The thing that the robot holds, by its index among the world's things.
     pub holding: Option<u32>,
-    /// The names of the world's things, by index; empty for one that is gone.
+    /// The names of the world's things, by index; empty for a removed thing.
     pub thing_names: &'a [Name],
 }

@@ -1,13 +1,12 @@
 //! A robot's storage, which survives a restart.
 //!
-//! A robot's software saves values under keys ([`crate::Robot::save`]), and finds them again when it starts the
-//! next time ([`crate::Robot::saved`]). A value is written whole or not at all. All that an input brings about,
-//! from messages to records, takes place only after everything that it saved, and that was saved before it, is
-//! on storage for good; a crash before that is as if the input had never come. So no other robot ever hears of
-//! anything that this one forgets. (This is output commit: Strom and Yemini 1985, "Optimistic Recovery in
-//! Distributed Systems".)
+//! A robot's software saves values under keys ([`crate::Robot::save`]), and finds them again when it starts the next
+//! time ([`crate::Robot::saved`]). Writes are atomic. All effects of an input, from messages to records, take place
+//! only after everything saved by it and before it is in storage. A crash before that undoes the input. So no other
+//! robot learns of a state that this one forgets. (This is output commit: Strom and Yemini 1985, "Optimistic Recovery
+//! in Distributed Systems".)
 //!
-//! Robots need not have storage; then nothing is saved and nothing found.
+//! Robots need not have storage; then no value is saved or found.
 
 use crate::event::Name;
 use crate::{Payload, Port, message};
@@ -44,7 +43,7 @@ impl Default for Saved {
 }
 
 impl Saved {
-    /// Storage that lost all that it held, or may have.
+    /// Storage that was erased, or may have been.
     pub fn lost() -> Saved {
         Saved {
             is_whole: false,
@@ -115,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_such_value_is_not_found() {
+    fn a_value_of_another_type_is_not_found() {
         let mut saved = Saved::default();
         saved.apply(save(1, "a", Some(7)));
         assert_eq!(saved.get::<(u8, u8)>(Port(1), "a"), None);

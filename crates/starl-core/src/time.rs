@@ -1,4 +1,4 @@
-//! Time as integer nanoseconds, so that it can be built, stored, compared and printed exactly.
+//! Time as integer nanoseconds, so that it can be constructed, stored, compared and printed exactly.
 
 use core::fmt;
 use core::ops::{Add, AddAssign, Div, Mul, Sub};

@@ -52,10 +52,10 @@ impl fmt::Display for Token {
 
 /// The timers of one owner; [`timers!`](crate::timers) implements it for enums.
 pub trait Timer: Sized {
-    /// The token that stands for it, different for different timers.
+    /// Its token, different for different timers.
     fn token(self) -> Token;
 
-    /// The timer for which a token stands; `None` if it stands for none of this owner.
+    /// The timer with this token; `None` if the owner has no such timer.
     fn from_token(token: Token) -> Option<Self>;
 }
 
@@ -79,7 +79,7 @@ impl TimerKey {
         }
     }
 
-    /// The timer that the owner of the port made it from; `None` if it stands for none of the type.
+    /// The timer of the port's owner; `None` if the type has no such timer.
     pub fn read<T: Timer>(&self) -> Option<T> {
         T::from_token(self.token)
     }

@@ -31,7 +31,7 @@ fn expand(input: &DeriveInput) -> Result<TokenStream, Error> {
             arms.collect()
         }
         Data::Union(data) => {
-            let message = "which field of a union is valid cannot be told";
+            let message = "a union is not allowed: its valid field is unknown";
             return Err(Error::new(data.union_token.span(), message));
         }
     };

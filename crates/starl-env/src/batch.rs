@@ -17,14 +17,14 @@ pub struct Batch {
     parallel: bool,
 }
 
-/// Where results go: arrays whose first dimensions are environments E and robots N, in row-major order.
+/// The outputs: arrays whose first dimensions are environments E and robots N, in row-major order.
 pub struct Outputs<'a> {
     /// E, N, 6: x, y, z in metres, then yaw, pitch and roll in radians.
     pub poses: &'a mut [f64],
     /// E, N, 6: the velocity in the world frame, metres per second, then the rates of yaw, pitch and roll.
     pub velocities: &'a mut [f64],
-    /// E, N: the first thing that the robot touched in the last action: -1 for nothing, below N another robot, from N on
-    /// an obstacle.
+    /// E, N: the first thing that the robot touched in the last action: -1 for nothing, below N another robot, from N
+    /// on an obstacle.
     pub contacts: &'a mut [i32],
     /// E, N, rays: the distance from the body's edge to what the ray meets, metres; the range if it meets nothing.
     pub lidar: &'a mut [f64],
@@ -54,7 +54,7 @@ impl Batch {
     /// Environments with seed 0, the robots of each in a row. Seed and place them before the first step.
     ///
     /// # Errors
-    /// Where a setting is out of its range.
+    /// If a setting is out of its range.
     pub fn new(settings: Settings, environments: usize) -> Result<Batch, SettingsError> {
         settings.check()?;
         let common = Common {
@@ -71,8 +71,8 @@ impl Batch {
         })
     }
 
-    /// Whether environments step in parallel, on the thread pool in which [`Batch::step`] is called. The results are the
-    /// same either way. Without the feature `parallel` this does nothing.
+    /// Whether environments step in parallel, on the thread pool in which [`Batch::step`] is called. The results are
+    /// the same either way. Without the feature `parallel` this does nothing.
     pub fn set_parallel(&mut self, parallel: bool) {
         self.parallel = parallel;
     }
@@ -105,7 +105,7 @@ impl Batch {
     /// Draws free places from the environment's random stream. Robots do not count as obstacles.
     ///
     /// # Errors
-    /// Where the region is too full.
+    /// If the region is too full.
     pub fn scatter(
         &mut self,
         environment: usize,
@@ -137,7 +137,7 @@ impl Batch {
     /// [`Settings::action_numbers`]; `messages` the shape environments, robots, [`Settings::message_numbers`].
     ///
     /// # Errors
-    /// Gives the first environment with a number that is not finite. It stays as it was; the others have stepped.
+    /// The first environment with a number that is not finite. It is unchanged; the others have stepped.
     pub fn step(
         &mut self,
         actions: &[f64],
@@ -169,7 +169,7 @@ impl Batch {
     /// Evaluates the expressions of a task for all environments after an action, or for those that begin an episode.
     ///
     /// # Errors
-    /// Gives an expression of the first environment that cannot be evaluated; the others have been.
+    /// An expression of the first environment that cannot be evaluated; the others have been evaluated.
     pub fn judge(
         &mut self,
         judge: &Judge,
@@ -278,7 +278,7 @@ fn rooms<'a>(
     })
 }
 
-/// Hands out one part of an array after another.
+/// Splits off one part of an array after another.
 fn parts<'a, T>(mut rest: &'a mut [T], size: usize) -> impl FnMut() -> &'a mut [T] {
     move || {
         let (part, others) = std::mem::take(&mut rest).split_at_mut(size);

@@ -1,10 +1,9 @@
 //! Environments for learning: many small worlds of robots that step together.
 //!
-//! Robots move by the models of `starl-motion`, stop where bodies touch, and measure distances as in the simulator, with
-//! the same code. There is no program, no radio protocol and no noise: a policy outside gives each robot its controls.
+//! Robots move by the models of `starl-motion`, stop where bodies touch, and measure distances as in the simulator,
+//! with the same code. There are no programs, no radio protocol and no noise: an external policy controls each robot.
 //!
-//! Invariant: what happens in an environment depends on its seed and its actions alone, neither on how many environments
-//! there are beside it nor on the number of threads.
+//! Invariant: an environment depends on its seed and its actions alone, not on the number of environments or threads.
 
 mod batch;
 mod judge;

@@ -70,7 +70,7 @@ impl Post {
         }
     }
 
-    /// Delivers what is due at the end of action `now`. Of two messages of one sender the newer one stays.
+    /// Delivers the messages due at the end of action `now`. Of two messages of one sender the newer one is kept.
     pub fn deliver(&mut self, radio: &Radio, now: u64, robots: usize) {
         let numbers = radio.numbers;
         let mut flights = std::mem::take(&mut self.flights);

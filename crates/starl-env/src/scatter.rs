@@ -19,7 +19,7 @@ pub struct Region {
     pub gap: f64,
 }
 
-/// There is no room for all places in a region.
+/// A region has no room for all places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoRoom {
     /// How many places were found.

@@ -170,7 +170,7 @@ impl World {
     /// Carries out one action of each robot, `rows` with a row for each: the action, then its message.
     ///
     /// # Errors
-    /// Gives the robot whose row has a number that is not finite; nothing has happened then.
+    /// The robot whose row has a number that is not finite; the world is unchanged then.
     pub fn act(
         &mut self,
         common: &Common,

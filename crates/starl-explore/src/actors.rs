@@ -1,9 +1,9 @@
 //! Actors by number: an actor is a robot's state with its mailbox, the datagrams that are on their way to it
 //! (Agha 1986, Actors).
 //!
-//! All that can happen to one robot depends on its actor alone, and changes it, and what it sends is put into
-//! the mailboxes of others. So what can happen is found out once for each actor, and a state of the fleet is
-//! as many numbers as there are robots (collapse compression: Holzmann 1997, State compression in SPIN).
+//! The possible events of a robot depend on its actor alone. They change the actor, and put its messages into the
+//! mailboxes of others. So the events are computed once for each actor, and a state of the fleet is one number for each
+//! robot (collapse compression: Holzmann 1997, State compression in SPIN).
 
 use crate::bounds::{Bounds, Clocks};
 use crate::code::{Code, Flying, Kind};
@@ -19,7 +19,7 @@ pub(crate) struct Actors {
     rows: Rows,
     /// Datagrams in ascending order, as [`Flying`].
     mailboxes: Table,
-    /// By actor; none of those that were not asked for.
+    /// By actor; only the requested ones.
     prospects: Vec<Option<Prospects>>,
     moves: Vec<Move>,
     /// Rows of actor and datagram.
@@ -46,7 +46,7 @@ pub(crate) struct Move {
     pub next: u32,
     /// The events of this step that checkers are shown.
     pub batch: u32,
-    /// Where the numbers of what it sent are.
+    /// The range of the numbers of its sent messages.
     pub sent: (u32, u32),
 }
 

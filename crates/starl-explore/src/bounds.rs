@@ -10,11 +10,11 @@ pub struct Bounds {
     /// Datagrams that get lost, at most; default 0. To safety a datagram that gets lost is one that
     /// never arrives, which is covered without losses; robots that wait for ever show only with them.
     pub losses: u8,
-    /// Datagrams that arrive once more than they were sent, at most; default 0.
+    /// The greatest number of extra copies of datagrams that arrive; default 0.
     pub duplicates: u8,
-    /// Whether all that was once sent may arrive any number of times, or never: at any time later, or as long as
-    /// [`Clocks::Ticking`] bounds the delay. Losses and duplicates are then not counted, and add nothing but for
-    /// robots that wait for ever for what was lost. Default false.
+    /// Whether each sent datagram may arrive any number of times, or never: at any later time, or within the delay
+    /// bound of [`Clocks::Ticking`]. Losses and duplicates are then not counted. Only robots that wait for ever for a
+    /// lost datagram are not found. Default false.
     #[serde(default)]
     pub any_copies: bool,
     /// Crashes, at most, of all robots together; each robot that is down may start again at any time, or
@@ -22,13 +22,13 @@ pub struct Bounds {
     pub crashes: u8,
     /// False or true suspicions by failure detectors, and ends of suspicions, at most; default 0.
     pub suspicions: u8,
-    /// Timers that fire, at most, of all robots together, or [`Bounds::ANY_NUMBER`]; default 1. With [`Clocks::Ticking`] timers
-    /// are bounded by the time instead.
+    /// Timers that fire, at most, of all robots together, or [`Bounds::ANY_NUMBER`]; default 1. With
+    /// [`Clocks::Ticking`] timers are bounded by the time instead.
     pub timers: u8,
     /// The model of clocks.
     pub clocks: Clocks,
-    /// States further than this many steps from the start are not explored; default none. A search
-    /// that comes upon this bound is not complete.
+    /// States further than this many steps from the start are not explored; default none. A search that reaches this
+    /// bound is not complete.
     pub depth: Option<u32>,
     /// The search stops when there are this many states, and is not complete then; default 10
     /// million.
@@ -41,8 +41,7 @@ pub enum Clocks {
     /// All clocks show zero, always, and a timer may fire at any time once it is armed.
     #[default]
     Still,
-    /// Clocks advance in ticks. A timer fires at the first tick at which it is due, before the clock goes
-    /// on.
+    /// Clocks advance in ticks. A timer fires at the first tick at which it is due, before the clock continues.
     Ticking {
         /// How long a tick is.
         tick: Duration,
@@ -58,7 +57,7 @@ pub enum Clocks {
 }
 
 impl Bounds {
-    /// So many timers are not counted: they fire any number of times.
+    /// The value for timers without a bound: they fire any number of times.
     pub const ANY_NUMBER: u8 = u8::MAX;
 }
 

@@ -47,7 +47,7 @@ const SHIFT: u32 = 28;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flying(pub u32);
 
-/// The greatest age that can be told.
+/// The greatest age that is distinguished.
 pub(crate) const OLDEST: u8 = 15;
 
 impl Flying {

@@ -1,10 +1,9 @@
-//! Whether states that were merged are really alike.
+//! Checks that merged states really behave alike.
 //!
-//! A state of a robot is known by what it writes of itself ([`starl_core::Program::write_state`]). A
-//! program that leaves something out would have states taken for one that go on in different ways, and
-//! behaviours would be missed. So a search may doubt: of each state of a robot it keeps a few other robots
-//! that came to the same text by other ways, its twins, and has all take every input. They must send
-//! the same, tell the same, and come to the same text again.
+//! A state of a robot is identified by the text that it writes ([`starl_core::Program::write_state`]). If a program
+//! omits a part of its state, states with different futures are merged, and behaviours are missed. So a search may
+//! check this: for each state of a robot it keeps a few other robots that reached the same text on other paths, its
+//! twins, and gives all of them every input. They must send the same, record the same, and reach the same text again.
 
 use crate::code::Code;
 use crate::robot::Local;
@@ -14,7 +13,7 @@ use std::collections::BTreeMap;
 /// How many are kept of each state.
 const TWINS: usize = 4;
 
-/// Twins, and what they were compared in.
+/// Twins, and the inputs in which they were compared.
 #[derive(Clone, Default)]
 pub(crate) struct Doubt {
     twins: BTreeMap<u32, Vec<Local>>,
@@ -29,7 +28,7 @@ pub(crate) struct Doubt {
 }
 
 impl Doubt {
-    /// A robot has come to a state in which another was.
+    /// A robot has reached a state in which another was.
     pub fn meet(&mut self, number: u32, local: Local) {
         let twins = self.twins.entry(number).or_default();
         if twins.len() < TWINS {
@@ -40,8 +39,8 @@ impl Doubt {
 }
 
 impl Robots {
-    /// Has twins take the input that a robot in this state has just taken, and new twins all that were
-    /// taken in their states before.
+    /// Gives twins the input that a robot in this state has just handled, and new twins all inputs that were handled in
+    /// their states before.
     pub fn compare_twins(&mut self, local: u32, code: Code) {
         let Some(doubt) = &mut self.doubt else { return };
         doubt.tried.entry(local).or_default().push(code);
@@ -74,7 +73,7 @@ impl Robots {
         if !is_same || mine.local != its.local {
             doubt.contradiction.get_or_insert_with(|| {
                 format!(
-                    "robot {robot} came to the same state in two ways and then went on in two ways \
+                    "robot {robot} reached one state on two paths and then behaved in two ways \
                      ({happening:?}): its program does not write all of its state"
                 )
             });

@@ -1,13 +1,12 @@
-//! Explores every behaviour of a small fleet within bounds: all orders in which datagrams can arrive,
-//! losses, duplicates, crashes and restarts, timers and activations at any time they could come.
+//! Explores every behaviour of a small fleet within bounds: all orders in which datagrams can arrive, losses,
+//! duplicates, crashes and restarts, timers and activations at every possible time.
 //!
-//! It is a host of the same [`starl_core::Agent`] as the simulator, with the same checkers of properties.
-//! A simulation is one behaviour out of many. An exploration is all of them, for fleets that are small
-//! enough. Robots stand still. `docs/explanation/exploration.md` explains the model of time, and the
-//! meaning of a search that found nothing.
+//! It is a host of the same [`starl_core::Agent`] as the simulator, with the same checkers of properties. A simulation
+//! shows one behaviour. An exploration visits all of them, for small fleets. Robots stand still.
+//! `docs/explanation/exploration.md` explains the model of time, and the meaning of a search that found nothing.
 //!
-//! [`Search`] finds the states, and the shortest way to a violation; [`Walk`] goes that way step by step,
-//! without any of the search's shortcuts.
+//! [`Search`] finds the states, and the shortest path to a violation; [`Walk`] follows that path step by step, without
+//! any of the search's optimisations.
 
 mod actors;
 mod bounds;
@@ -51,10 +50,10 @@ pub struct Setup {
     pub invariants: Vec<Box<dyn Invariant>>,
 }
 
-/// The property that is violated where a program says that it cannot go on, or a run-time error stops it.
+/// The property that is violated where a program says that it cannot continue, or a run-time error stops it.
 pub const FAILED: &str = "explore.failed";
 
-/// A program that cannot go on, among events.
+/// A program that cannot continue, among events.
 fn failure(events: &[(RobotId, Event)], at: Time) -> Option<Violation> {
     events.iter().find_map(|(robot, event)| match event {
         Event::Failed(reason) => Some(Violation {

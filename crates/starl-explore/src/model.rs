@@ -4,7 +4,7 @@ use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{Point, Port, Pose, Program, RobotId, WayPoint};
 use std::collections::BTreeSet;
 
-/// A fleet and what it knows. All robots have started when an exploration begins.
+/// A fleet and its knowledge. All robots have started when an exploration begins.
 #[derive(Clone)]
 pub struct Model {
     /// The robots, by number.
@@ -15,11 +15,10 @@ pub struct Model {
     pub obstacles: Obstacles,
     /// Decides the robots' random streams.
     pub seed: u64,
-    /// Endpoints whose timers never fire, such as those of failure detectors whose verdicts are explored
-    /// in the place of their heartbeats.
+    /// Endpoints whose timers never fire, such as those of failure detectors: their verdicts are explored instead of
+    /// their heartbeats.
     pub silent: BTreeSet<Port>,
-    /// Whether all robots are to finish: a state from which nothing can happen any more is then a
-    /// violation, unless they have.
+    /// Whether all robots must finish: a state without a next step is then a violation, unless all have finished.
     pub all_finish: bool,
 }
 

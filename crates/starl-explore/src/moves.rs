@@ -25,7 +25,7 @@ pub(crate) fn ready(local: &Local, surroundings: &Surroundings) -> Vec<u32> {
     ready.map(|(_, place)| place).collect()
 }
 
-/// Whether the clock of a robot in this state may go on.
+/// Whether the clock of a robot in this state may continue.
 pub(crate) fn may_tick(robots: &Robots, local: u32) -> bool {
     let Clocks::Ticking { ticks, .. } = robots.surroundings.clocks else {
         return false;
@@ -141,7 +141,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Something happens to the robot itself; it is no move if nothing comes of it.
+    /// Something happens to the robot itself; it is not a move if it has no effect.
     fn happen(&mut self, code: Code) {
         let outcome = self.robots.turn(self.local, code);
         if !outcome.is_idle(self.local) {

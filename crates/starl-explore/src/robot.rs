@@ -1,7 +1,7 @@
-//! One robot in an exploration: its software, timers and clock, and what an input makes of it.
+//! One robot in an exploration: its software, timers and clock, and the effect of an input.
 //!
-//! Invariant: [`Local::write`] writes all that the future of the robot depends on, so that two robots
-//! of one number that write the same answer every input alike.
+//! Invariant: [`Local::write`] writes everything that the robot's future depends on, so that two robots of one number
+//! that write the same text answer every input alike.
 
 use crate::bounds::Clocks;
 use crate::model::{Member, Model};
@@ -13,7 +13,7 @@ use starl_core::{
     Agent, Destination, Duration, Estimate, Event, Input, Message, MotionRequest, Port, Random,
     RobotId, Sensors, Time, TimerKey,
 };
-use starl_host::{Clock, Happening as Call, Hardware, Node, Outlet, PlanJob, Snapshot, Workspace};
+use starl_host::{Clock, Hardware, Node, NodeInput as Call, Outlet, PlanJob, Snapshot, Workspace};
 use starl_motion::Neighbour;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -30,9 +30,9 @@ pub(crate) struct Local {
     history: u128,
 }
 
-/// Something that happens to one robot.
+/// An input of one robot.
 #[derive(Clone, Debug)]
-pub(crate) enum Happening {
+pub(crate) enum RobotInput {
     Activate,
     Timer(TimerKey),
     Message(Message),
@@ -86,7 +86,7 @@ impl Surroundings {
         }
     }
 
-    /// The time at which a clock has ticked so often.
+    /// The time of a clock after this number of ticks.
     pub fn time(&self, ticks: u64) -> Time {
         Time::ZERO + self.tick() * ticks
     }
@@ -120,11 +120,11 @@ impl Local {
             history: 0,
         };
         local.node.crash();
-        local.turn(&Happening::Restart, surroundings)
+        local.turn(&RobotInput::Restart, surroundings)
     }
 
     /// The result of an event.
-    pub fn turn(&self, happening: &Happening, surroundings: &Surroundings) -> Turn {
+    pub fn turn(&self, happening: &RobotInput, surroundings: &Surroundings) -> Turn {
         let mut turn = Turn {
             local: self.clone(),
             sent: Vec::new(),
@@ -132,16 +132,16 @@ impl Local {
             motions: 0,
         };
         match happening {
-            Happening::Activate => turn.feed(Input::Activate, surroundings),
-            Happening::Timer(key) => turn.feed(Input::Timer(*key), surroundings),
-            Happening::Message(message) => {
+            RobotInput::Activate => turn.feed(Input::Activate, surroundings),
+            RobotInput::Timer(key) => turn.feed(Input::Timer(*key), surroundings),
+            RobotInput::Message(message) => {
                 turn.feed(Input::Message(message.clone()), surroundings);
             }
-            Happening::Suspect(peer) => turn.feed(Input::Suspected(*peer), surroundings),
-            Happening::Trust(peer) => turn.feed(Input::Trusted(*peer), surroundings),
-            Happening::Tick => turn.local.clock += 1,
-            Happening::Crash => turn.crash(),
-            Happening::Restart => turn.start(surroundings),
+            RobotInput::Suspect(peer) => turn.feed(Input::Suspected(*peer), surroundings),
+            RobotInput::Trust(peer) => turn.feed(Input::Trusted(*peer), surroundings),
+            RobotInput::Tick => turn.local.clock += 1,
+            RobotInput::Crash => turn.crash(),
+            RobotInput::Restart => turn.start(surroundings),
         }
         turn
     }
@@ -156,7 +156,7 @@ impl Local {
         !self.node.condition().down
     }
 
-    /// Whether it is up and its program can go on.
+    /// Whether it is up and its program can continue.
     pub fn runs(&self) -> bool {
         self.node.runs()
     }
@@ -176,7 +176,7 @@ impl Local {
         timers
     }
 
-    /// Whether a timer is due that has to fire before the clock goes on.
+    /// Whether a timer is due that must fire before the clock advances.
     pub fn is_due(&self, surroundings: &Surroundings) -> bool {
         let silent: &BTreeSet<Port> = &surroundings.model.silent;
         let is_due = |(at, key): (Time, TimerKey)| {
@@ -185,7 +185,7 @@ impl Local {
         self.runs() && self.node.timers().iter().any(is_due)
     }
 
-    /// Writes all that its future depends on.
+    /// Writes everything that its future depends on.
     pub fn write(&self, surroundings: &Surroundings, text: &mut String) {
         let Local {
             node,
@@ -281,7 +281,7 @@ impl Outlet for Wire<'_> {
         &mut self.workspace
     }
 
-    /// Robots stand still and know where; datagrams are told of by the network.
+    /// Robots stand still and know their positions; the network records datagrams.
     fn record(&mut self, _: Time, event: Event) {
         if !matches!(event, Event::Estimated(_) | Event::Sent { .. }) {
             self.events.push(event);

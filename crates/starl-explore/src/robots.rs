@@ -1,11 +1,11 @@
-//! The states of single robots, by number, and what each input makes of them.
+//! The states of single robots, by number, and their successors for each input.
 //!
-//! A fleet has far fewer states of single robots than it has states, so programs run once for each
-//! state of a robot and input, and never again.
+//! A fleet has far fewer states of single robots than it has states, so a program runs once for each state of a robot
+//! and input.
 
 use crate::code::{Code, Kind, MOST_DATAGRAMS};
 use crate::doubt::Doubt;
-use crate::robot::{Happening, Local, Surroundings};
+use crate::robot::{Local, RobotInput, Surroundings};
 use crate::step::Datagram;
 use crate::table::{Rows, Table};
 use crate::texts::Texts;
@@ -44,7 +44,7 @@ pub(crate) struct Outcome {
     pub local: u32,
     /// The events for the checkers.
     pub batch: u32,
-    /// Where the numbers of what it sent are.
+    /// The range of the numbers of its sent messages.
     pub sent: (u32, u32),
 }
 
@@ -108,7 +108,7 @@ impl Robots {
         self.states[local as usize].robot()
     }
 
-    /// The numbers of what was sent in a turn.
+    /// The numbers of the messages sent in a turn.
     pub fn sent(&self, (begin, end): (u32, u32)) -> &[u32] {
         &self.sent[begin as usize..end as usize]
     }
@@ -135,29 +135,29 @@ impl Robots {
         self.outcomes[number as usize]
     }
 
-    pub(crate) fn happening(&self, local: u32, code: Code) -> Happening {
+    pub(crate) fn happening(&self, local: u32, code: Code) -> RobotInput {
         let peer = RobotId(code.which());
         match code.kind() {
             Kind::Timer => {
                 let armed = self.states[local as usize].timers(&self.surroundings);
                 match armed.get(code.which() as usize) {
-                    Some((key, _)) => Happening::Timer(*key),
+                    Some((key, _)) => RobotInput::Timer(*key),
                     None => unreachable!("only timers that are armed fire"),
                 }
             }
             Kind::Deliver | Kind::Duplicate | Kind::Lose => {
-                Happening::Message(self.datagram(code.number()).message())
+                RobotInput::Message(self.datagram(code.number()).message())
             }
-            Kind::Crash => Happening::Crash,
-            Kind::Restart | Kind::RestartDeaf => Happening::Restart,
-            Kind::Suspect => Happening::Suspect(peer),
-            Kind::Trust => Happening::Trust(peer),
-            Kind::Tick | Kind::TickAll => Happening::Tick,
-            Kind::Activate => Happening::Activate,
+            Kind::Crash => RobotInput::Crash,
+            Kind::Restart | Kind::RestartDeaf => RobotInput::Restart,
+            Kind::Suspect => RobotInput::Suspect(peer),
+            Kind::Trust => RobotInput::Trust(peer),
+            Kind::Tick | Kind::TickAll => RobotInput::Tick,
+            Kind::Activate => RobotInput::Activate,
         }
     }
 
-    /// Gives all that has come of a turn its numbers.
+    /// Numbers the results of a turn.
     pub(crate) fn enter(&mut self, turn: crate::robot::Turn) -> Outcome {
         self.motions += turn.motions;
         let robot = turn.local.robot();

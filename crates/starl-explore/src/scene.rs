@@ -6,7 +6,7 @@ use starl_core::{Pose, RobotId, Time, WayPoint};
 use starl_properties::Violation;
 use std::any::Any;
 
-/// Judges states one by one, whatever came before.
+/// Judges single states, independent of their paths.
 pub trait Invariant: dyn_clone::DynClone + Send + Sync {
     /// Adds what does not hold.
     fn judge(&self, scene: &Scene<'_>, violations: &mut Vec<Violation>);

@@ -1,9 +1,8 @@
-//! Breadth-first search through all states (Moore 1959), so that the first violation that it comes upon
-//! has as few steps before it as any.
+//! Breadth-first search through all states (Moore 1959), so that the first violation found has the fewest steps.
 //!
-//! A state is a row of words: the number of what the checkers remember and what is left of the bounds, and the number
-//! of each robot's state with the datagrams that are on their way to it. All that can make a difference to what
-//! comes next is in the row, and rows are compared whole.
+//! A state is a row of words: the number of the checkers' state and the remaining bounds, and the number of each
+//! robot's state with its datagrams in transit. The row contains everything that the next steps depend on, and rows are
+//! compared whole.
 
 use crate::Setup;
 use crate::actors::Actors;
@@ -64,7 +63,7 @@ pub enum End {
 /// The way to a violation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counterexample {
-    /// The steps, as few as possible.
+    /// The steps, the fewest possible.
     pub steps: Vec<Step>,
     /// The violation after them.
     pub violation: Violation,
@@ -89,7 +88,7 @@ pub struct Report {
     pub checker_states: usize,
     /// How often programs asked to move. Motion requests are ignored.
     pub motions: u64,
-    /// Turns in which two robots that were taken for the same were compared.
+    /// Turns in which two merged robots were compared.
     pub compared: u64,
     /// Memory of the states, bytes.
     pub bytes: usize,
@@ -106,16 +105,16 @@ impl Search {
     /// A search from the state in which all robots have started.
     ///
     /// # Errors
-    /// Where there are more than 256 robots.
+    /// If there are more than 256 robots.
     pub fn new(setup: Setup) -> Result<Search, TooManyRobots> {
         let (walk, moment) = Walk::start(setup);
         Search::from(&walk, moment.violations)
     }
 
-    /// A search from the state that a walk has come to, in which this is violated.
+    /// A search from the end state of a walk, in which this is violated.
     ///
     /// # Errors
-    /// Where there are more than 256 robots.
+    /// If there are more than 256 robots.
     pub fn from(walk: &Walk, violations: Vec<Violation>) -> Result<Search, TooManyRobots> {
         if walk.locals.len() > MOST_ROBOTS {
             return Err(TooManyRobots);
@@ -166,7 +165,7 @@ impl Search {
         self.robots.doubt = doubting.then(Box::<Doubt>::default);
     }
 
-    /// Expands up to so many states; gives how the search has ended, once it has.
+    /// Expands up to this number of states; returns the end of the search once it has ended.
     pub fn advance(&mut self, states: u32) -> Option<&End> {
         for _ in 0..states {
             if self.end.is_some() {
@@ -262,8 +261,8 @@ impl Search {
         self.heads.insert(&[watch, first, second], &[]).0
     }
 
-    /// Shows the checkers what happened in the step that leads to the row at hand. Gives what they remember after
-    /// it; none where something is violated.
+    /// Shows the checkers the events of the step that leads to the current row. Returns their state after it; none if a
+    /// property is violated.
     pub(crate) fn show(&mut self, watch: u32, batch: u32, from: u32, code: Code) -> Option<u32> {
         if batch == NOTHING {
             return Some(watch);

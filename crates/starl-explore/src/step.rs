@@ -51,13 +51,13 @@ pub enum Step {
     Timer(RobotId, TimerKey),
     /// A datagram arrives.
     Deliver(Datagram),
-    /// A datagram arrives, and will arrive once more.
+    /// A datagram arrives, and will arrive again.
     Duplicate(Datagram),
     /// A datagram gets lost.
     Lose(Datagram),
-    /// A robot crashes: all that its program knows is gone.
+    /// A robot crashes, and its program loses all state.
     Crash(RobotId),
-    /// A robot that was down starts again.
+    /// A robot that was down restarts.
     Restart(RobotId),
     /// The same, and all datagrams that were on their way to it have got lost while it was down.
     RestartDeaf(RobotId),
@@ -114,16 +114,16 @@ impl fmt::Display for Step {
             }
             Step::Duplicate(Datagram { from, to, .. }) => write!(
                 f,
-                "a datagram from robot {from} reaches robot {to}, and a copy stays on its way"
+                "a datagram from robot {from} reaches robot {to}, and a copy stays in transit"
             ),
             Step::Lose(Datagram { from, to, .. }) => {
                 write!(f, "a datagram from robot {from} to robot {to} gets lost")
             }
             Step::Crash(robot) => write!(f, "robot {robot} crashes"),
-            Step::Restart(robot) => write!(f, "robot {robot} starts again"),
+            Step::Restart(robot) => write!(f, "robot {robot} restarts"),
             Step::RestartDeaf(robot) => write!(
                 f,
-                "robot {robot} starts again; what was on its way to it has got lost"
+                "robot {robot} restarts; the datagrams in transit to it are lost"
             ),
             Step::Suspect(robot, peer) => write!(f, "robot {robot} suspects robot {peer}"),
             Step::Trust(robot, peer) => write!(f, "robot {robot} trusts robot {peer} again"),

@@ -1,8 +1,8 @@
-//! Tables that number rows of words in the order in which they come: equal rows have one number.
+//! Tables that number rows of words in the order of insertion: equal rows have one number.
 //!
-//! Rows lie end to end, and are found by open addressing with linear probing (Knuth, The Art of Computer
-//! Programming 3, section 6.4). Equality is of the whole row, so that two rows are never taken for one. Unlike the
-//! standard library's tables these are the same on every run.
+//! Rows lie end to end, and are found by open addressing with linear probing (Knuth, The Art of Computer Programming 3,
+//! section 6.4). Whole rows are compared, so two different rows are never confused. Unlike the standard library's
+//! tables these are the same on every run.
 
 use starl_core::Digest;
 
@@ -52,8 +52,8 @@ fn row_of<'a>(words: &'a [u32], ends: &[usize], number: u32) -> &'a [u32] {
     words.get(begin..end).unwrap_or_default()
 }
 
-/// Numbers rows of one length from 0 on, and keeps some words more with each. There is no slack but in the index:
-/// rows lie in chunks that are never moved.
+/// Numbers rows of one length from 0 on, and keeps some words more with each. Only the index has spare memory: rows are
+/// in chunks that are never moved.
 #[derive(Clone, Debug)]
 pub struct Rows {
     /// How many words a row has.
@@ -214,7 +214,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_are_numbered_as_they_come_and_found_again() {
+    fn rows_are_numbered_in_order_and_found_again() {
         let mut table = Table::default();
         let rows: Vec<Vec<u32>> = (0..5000u32)
             .map(|number| (0..number % 7).map(|k| k * number).collect())
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_one_length_keep_what_was_given_with_them_first() {
+    fn rows_keep_the_words_of_their_first_insertion() {
         let mut rows = Rows::new(2, 1);
         for turn in 0..2 {
             for number in 0..3 * CHUNK {

@@ -1,7 +1,7 @@
-//! Numbers texts that stand for states: equal texts have one number.
+//! Numbers texts that represent states: equal texts have one number.
 //!
-//! Only 128 bits of each text are kept. That two different texts share them is as likely as two of so
-//! many random numbers being equal: for a million texts less than one in 10^26.
+//! Only 128 bits of each text are kept. Two different texts share them as rarely as random numbers do: for a million
+//! texts with a probability below 10^-26.
 
 use crate::table::Table;
 use starl_core::Digest;
@@ -11,7 +11,7 @@ use starl_core::Digest;
 pub struct Texts(Table);
 
 impl Texts {
-    /// The number of a text, from 0 in the order in which they come, and whether it is new.
+    /// The number of a text, from 0 in the order of insertion, and whether it is new.
     pub fn insert(&mut self, text: &str) -> (u32, bool) {
         let fingerprint = fingerprint(text);
         let words = [0, 32, 64, 96].map(|shift| (fingerprint >> shift) as u32);
@@ -19,7 +19,7 @@ impl Texts {
     }
 }
 
-/// 128 bits that stand for a text.
+/// A hash of 128 bits of a text.
 pub fn fingerprint(text: &str) -> u128 {
     let mut halves = [Digest::default(), Digest::default()];
     halves[1].word(1);

@@ -1,13 +1,13 @@
-//! Goes one way through the states, step by step, and tells all that happens on it.
+//! Follows one path through the states, step by step, and reports all events on it.
 //!
-//! It holds the robots themselves and not their numbers, and knows nothing of the search: a way that
-//! leads to a violation here is one that robots can go.
+//! It runs the robots themselves, not their numbers, and is independent of the search: a path to a violation here is a
+//! behaviour of the real programs.
 
 use crate::Setup;
 use crate::bounds::{Bounds, Clocks, Left};
 use crate::code::OLDEST;
 use crate::moves::ready;
-use crate::robot::{Happening, Local, Surroundings, Turn};
+use crate::robot::{Local, RobotInput, Surroundings, Turn};
 use crate::scene::{Invariant, Scene};
 use crate::step::{Datagram, Step};
 use crate::watch::{self, Checkers};
@@ -90,12 +90,12 @@ impl Walk {
     /// Takes a step.
     ///
     /// # Errors
-    /// Where it is not possible in this state.
+    /// If it is not possible in this state.
     pub fn step(&mut self, step: &Step) -> Result<Moment, Impossible> {
         self.steps += 1;
         let mut records = Vec::new();
         let turns = match step {
-            Step::Activate(robot) => vec![self.turn(*robot, Happening::Activate)?],
+            Step::Activate(robot) => vec![self.turn(*robot, RobotInput::Activate)?],
             Step::Timer(robot, key) => {
                 let local = self.running(*robot)?;
                 let mut armed = local.timers(&self.surroundings).into_iter();
@@ -108,7 +108,7 @@ impl Walk {
                 if self.bounds.clocks == Clocks::Still && is_counted {
                     spend(&mut self.left.timers, "timers")?;
                 }
-                vec![self.turn(*robot, Happening::Timer(*key))?]
+                vec![self.turn(*robot, RobotInput::Timer(*key))?]
             }
             Step::Deliver(datagram) => vec![self.deliver(datagram, true, &mut records)?],
             Step::Duplicate(datagram) => {
@@ -126,7 +126,7 @@ impl Walk {
             }
             Step::Crash(robot) => {
                 spend(&mut self.left.crashes, "crashes")?;
-                vec![self.turn(*robot, Happening::Crash)?]
+                vec![self.turn(*robot, RobotInput::Crash)?]
             }
             Step::Restart(robot) => vec![self.restart(*robot)?],
             Step::RestartDeaf(robot) => {
@@ -136,11 +136,11 @@ impl Walk {
             }
             Step::Suspect(robot, peer) => {
                 spend(&mut self.left.suspicions, "suspicions")?;
-                vec![self.turn(*robot, Happening::Suspect(*peer))?]
+                vec![self.turn(*robot, RobotInput::Suspect(*peer))?]
             }
             Step::Trust(robot, peer) => {
                 spend(&mut self.left.suspicions, "suspicions")?;
-                vec![self.turn(*robot, Happening::Trust(*peer))?]
+                vec![self.turn(*robot, RobotInput::Trust(*peer))?]
             }
             Step::Tick(robot) => vec![self.tick(*robot)?],
             Step::TickAll => {
@@ -209,7 +209,7 @@ impl Walk {
         }
     }
 
-    fn turn(&self, robot: RobotId, happening: Happening) -> Result<Turn, Impossible> {
+    fn turn(&self, robot: RobotId, happening: RobotInput) -> Result<Turn, Impossible> {
         let local = self.running(robot)?;
         Ok(local.turn(&happening, &self.surroundings))
     }
@@ -217,7 +217,7 @@ impl Walk {
     fn restart(&self, robot: RobotId) -> Result<Turn, Impossible> {
         let local = self.local(robot)?;
         match local.is_up() {
-            false => Ok(local.turn(&Happening::Restart, &self.surroundings)),
+            false => Ok(local.turn(&RobotInput::Restart, &self.surroundings)),
             true => Err(Impossible(format!("robot {robot} is not down"))),
         }
     }
@@ -232,7 +232,7 @@ impl Walk {
                 "the clock of robot {robot} cannot tick"
             )));
         }
-        Ok(local.turn(&Happening::Tick, &self.surroundings))
+        Ok(local.turn(&RobotInput::Tick, &self.surroundings))
     }
 
     fn find(&self, wanted: &Datagram) -> Result<usize, Impossible> {
@@ -250,7 +250,7 @@ impl Walk {
         records: &mut Vec<Record>,
     ) -> Result<Turn, Impossible> {
         let place = self.find(datagram)?;
-        let turn = self.turn(datagram.to, Happening::Message(datagram.message()))?;
+        let turn = self.turn(datagram.to, RobotInput::Message(datagram.message()))?;
         let (from, sequence) = (datagram.from, self.flight[place].sequence);
         if is_last {
             self.flight.remove(place);
@@ -277,7 +277,7 @@ impl Walk {
         }
     }
 
-    /// All that is on its way has been so for a tick more.
+    /// Everything that is on its way has been so for a tick more.
     fn grow_old(&mut self) -> Vec<Record> {
         let Clocks::Ticking {
             delay: Some(delay), ..

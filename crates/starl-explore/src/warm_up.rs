@@ -1,7 +1,7 @@
-//! A beginning that is not explored: all that is said arrives at once, in the order in which it was said.
+//! A warm-up that is not explored: all datagrams arrive at once, in the order of sending.
 //!
-//! Many protocols have robots ask each other at their start for what they have forgotten. That has more orders
-//! than all that comes after. Explorations of what comes after begin when it is over.
+//! In many protocols robots ask each other at their start for lost state. This has more orders than everything that
+//! follows. Explorations of what follows begin after the warm-up.
 
 use crate::bounds::Clocks;
 use crate::moves::ready;
@@ -12,11 +12,11 @@ use crate::walk::{Impossible, Moment, Walk};
 const LONGEST: usize = 10_000;
 
 impl Walk {
-    /// Lets all that is on its way arrive, all that is due happen, and clocks tick so often. Programs are not
-    /// activated, and where clocks stand still no timer fires. Gives the steps, each with what happened.
+    /// Delivers all datagrams in transit, fires all due timers, and ticks the clocks this number of times. Programs are
+    /// not activated, and without ticking clocks no timer fires. Returns the steps with their events.
     ///
     /// # Errors
-    /// Fails if robots do not become quiet, or clocks cannot tick so often.
+    /// The robots do not become quiet, or the clocks cannot tick this number of times.
     pub fn warm_up(&mut self, ticks: u16) -> Result<Vec<(Step, Moment)>, Impossible> {
         let mut taken = Vec::new();
         let mut left = ticks;

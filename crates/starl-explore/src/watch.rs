@@ -1,12 +1,12 @@
-//! The checkers of properties, as one more state machine: it takes in events, and what it remembers is
-//! a part of the state that is explored.
+//! The checkers of properties, as one more state machine: its inputs are events, and its state is a part of the
+//! explored state.
 //!
 //! Two paths that lead robots and network to the same state merge only if the checkers have the same
 //! state too, as shown by `Debug`. So a verdict that depends on the past, for example on another robot
 //! that still holds a lock, is correct on every path.
 //!
-//! Checkers are not shown datagrams. They need them only to excuse what came too late, and nothing is
-//! too late here: an exploration has no bounds of time.
+//! Checkers do not see datagrams. They need them only to excuse late events, and there are none here: an exploration
+//! has no time bounds.
 
 use crate::table::Rows;
 use crate::texts::Texts;
@@ -56,7 +56,7 @@ pub(crate) fn is_shown(event: &Event) -> bool {
     )
 }
 
-/// All states of the checkers that were seen, by number, and what events make of them.
+/// All visited states of the checkers, by number, and their successors.
 #[derive(Clone)]
 pub(crate) struct Watches {
     states: Vec<Checkers>,
@@ -93,7 +93,7 @@ impl Watches {
         self.states.len()
     }
 
-    /// Memory of what events make of them, without that of the checkers themselves, bytes.
+    /// The memory of the successors in bytes, without that of the checkers themselves.
     pub fn bytes(&self) -> usize {
         self.known.bytes() + self.outcomes.capacity() * size_of::<Outcome>()
     }

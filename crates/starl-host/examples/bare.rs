@@ -14,7 +14,7 @@ use starl_core::{
     Random, Robot, RobotId, Sensors, Time,
 };
 use starl_host::{
-    Clock, Datagram, Happening, Hardware, Node, Outlet, PlanJob, Snapshot, Workspace,
+    Clock, Datagram, Hardware, Node, NodeInput, Outlet, PlanJob, Snapshot, Workspace,
 };
 use starl_motion::Neighbour;
 
@@ -95,7 +95,7 @@ pub fn run<B: Board>(id: RobotId, fleet: &[RobotId], board: &mut B) {
         way_points: &[],
         obstacles: &obstacles,
     };
-    let mut happening = Happening::Start;
+    let mut happening = NodeInput::Start;
     while node.runs() {
         let (now, estimate) = (board.now(), board.estimate());
         let workspace = &mut workspace;
@@ -104,8 +104,8 @@ pub fn run<B: Board>(id: RobotId, fleet: &[RobotId], board: &mut B) {
         node.handle(now, happening, &snapshot, &mut wires);
         board.command(node.command());
         happening = match board.wait(node.next_timeout()) {
-            Some((sequence, message)) => Happening::Datagram { sequence, message },
-            None => Happening::Timeout,
+            Some((sequence, message)) => NodeInput::Datagram { sequence, message },
+            None => NodeInput::Timeout,
         };
     }
 }

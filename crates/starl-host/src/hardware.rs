@@ -22,7 +22,7 @@ pub struct Hardware {
 pub struct Drive {
     /// The robot's dynamics and limits.
     pub model: Arc<dyn Model>,
-    /// How the robot keeps clear of others; it does not where there are no options.
+    /// The robot's avoidance of others; no avoidance if none.
     pub avoidance: Option<avoidance::Options>,
     /// Standard deviation of positions, metres: planned paths keep at least four times as much away from
     /// obstacles where they can.

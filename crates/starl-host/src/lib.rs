@@ -23,7 +23,7 @@ pub mod timers;
 pub use clock::Clock;
 pub use hardware::{Hardware, Snapshot};
 pub use journal::Observed;
-pub use node::{Condition, Happening, Node};
+pub use node::{Condition, Node, NodeInput};
 pub use outlet::{Datagram, Outlet, PlanJob, StoreJob, Workspace};
 pub use replayer::{Departure, Difference, Replayer};
 pub use store::Store;

@@ -1,4 +1,4 @@
-//! The node itself: what happens to a robot, and in which order its software hears of it.
+//! The node: the inputs of a robot, and the order in which its software handles them.
 
 use crate::{Clock, Datagram, Observed, Outlet, Snapshot, Timers};
 use alloc::boxed::Box;
@@ -19,7 +19,7 @@ mod storing;
 /// Timers are never shorter, so that a moment holds only so many of them.
 const SHORTEST_TIMER: Duration = Duration::from_millis(1);
 
-/// The node of one robot. A clone goes on exactly as the original would.
+/// The node of one robot. A clone continues exactly as the original would.
 #[derive(Clone)]
 pub struct Node {
     id: RobotId,
@@ -55,7 +55,7 @@ pub struct Condition {
     pub down: bool,
     /// Its program has reached its goal. It still answers.
     pub finished: bool,
-    /// Its program cannot go on, and is not called any more.
+    /// Its program cannot continue, and is not called any more.
     pub failed: bool,
 }
 
@@ -66,9 +66,9 @@ impl Condition {
     }
 }
 
-/// Something that happens to a robot.
+/// An input of a node.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
+pub enum NodeInput {
     /// The robot's software starts. Due once in each life, at [`Node::next_timeout`].
     Start,
     /// The estimate given by [`Node::locate`] is new.
@@ -87,12 +87,12 @@ pub enum Happening {
         /// Waypoints from the robot to the target; none where no path was found.
         path: Option<Path>,
     },
-    /// A [`crate::StoreJob`] is done: what it was to write is on storage for good.
+    /// A [`crate::StoreJob`] is done: what it was to write is on storage permanently.
     Stored {
         /// Which one. A job of an earlier life is ignored.
         job: u32,
     },
-    /// The time that [`Node::next_timeout`] gave has come.
+    /// The time returned by [`Node::next_timeout`] has been reached.
     Timeout,
     /// An input that the host chooses itself, for hosts that try out orders: a timer fires early, the
     /// program is activated, a robot is suspected.
@@ -122,8 +122,8 @@ impl Node {
         }
     }
 
-    /// The same node, whose datagrams are numbered from `sequence` on: a process that starts again goes on with
-    /// other numbers than the one before.
+    /// The same node with datagrams numbered from `sequence` on, so that a restarted process does not reuse the numbers
+    /// of the one before.
     pub fn with_sequence(self, sequence: u32) -> Node {
         Node { sequence, ..self }
     }
@@ -140,8 +140,8 @@ impl Node {
         self.clock
     }
 
-    /// Sets the robot's clock, as a restart may set one without a battery back to 0. Armed timers stay due when
-    /// they are.
+    /// Sets the robot's clock: a restart may set a clock without a battery back to 0. The due times of armed timers do
+    /// not change.
     pub fn set_clock(&mut self, clock: Clock) {
         self.clock = clock;
     }
@@ -152,7 +152,7 @@ impl Node {
         self.condition
     }
 
-    /// Whether the robot is up and its program can go on.
+    /// Whether the robot is up and its program can continue.
     #[inline]
     pub fn runs(&self) -> bool {
         !self.condition.down && !self.condition.failed
@@ -174,7 +174,7 @@ impl Node {
         &self.estimate
     }
 
-    /// The command that the robot's model is to follow until the next call.
+    /// The command for the robot's model until the next call.
     #[inline]
     pub fn command(&self) -> Command {
         self.command
@@ -186,8 +186,8 @@ impl Node {
         &self.timers
     }
 
-    /// When the node wants to be called next: with [`Happening::Start`] if it has not started in this life,
-    /// else with [`Happening::Timeout`]. [`Time::NEVER`] if the robot is down or its program has failed.
+    /// When the node wants to be called next: with [`NodeInput::Start`] if it has not started in this life,
+    /// else with [`NodeInput::Timeout`]. [`Time::NEVER`] if the robot is down or its program has failed.
     #[inline]
     pub fn next_timeout(&self) -> Time {
         if !self.runs() {
@@ -209,7 +209,7 @@ impl Node {
         }
     }
 
-    /// The robot crashes: it forgets everything but its number, its clock and how many datagrams it has sent.
+    /// The robot crashes: it forgets everything except its number, its clock and how many datagrams it has sent.
     pub fn crash(&mut self) {
         self.condition = Condition {
             down: true,
@@ -222,7 +222,7 @@ impl Node {
         self.waiting = None;
     }
 
-    /// A robot that is down comes up again with fresh software, which is to start at `at`.
+    /// Restarts a robot that is down, with fresh software that starts at `at`.
     pub fn restart(&mut self, at: Time, agent: Agent) {
         self.crash();
         self.agent = agent;
@@ -250,8 +250,8 @@ impl Node {
         }
     }
 
-    /// Gives the robot a new estimate of where it is; its time is that of the robot's own clock. The
-    /// software hears of it by [`Happening::Located`] or [`Happening::Start`].
+    /// Sets the robot's position estimate, with the time of the robot's own clock. The software receives it by
+    /// [`NodeInput::Located`] or [`NodeInput::Start`].
     #[inline]
     pub fn locate(&mut self, at: Time, estimate: Estimate, outlet: &mut impl Outlet) {
         self.estimate = Estimate {
@@ -261,25 +261,25 @@ impl Node {
         outlet.record(at, Event::Estimated(estimate.pose));
     }
 
-    /// Lets the robot's software take part in what happens at `at`. Calls come in the order of their times; of
-    /// those at one time a start comes first, then plans, locations, what was stored, datagrams, timers and the activation.
+    /// Passes an input at `at` to the robot's software. Calls must be in the order of their times. At one time the
+    /// order is: start, plans, locations, completed writes, datagrams, timers, activation.
     #[inline(always)]
     pub fn handle(
         &mut self,
         at: Time,
-        happening: Happening,
+        happening: NodeInput,
         snapshot: &Snapshot<'_>,
         outlet: &mut impl Outlet,
     ) {
         match happening {
-            Happening::Start => {
+            NodeInput::Start => {
                 if !self.condition.started && !self.condition.down {
                     self.condition.started = true;
                     self.show_fresh(at, outlet);
                     self.feed(at, &Input::Start, snapshot, outlet);
                 }
             }
-            Happening::Located => {
+            NodeInput::Located => {
                 self.feed(at, &Input::Estimate, snapshot, outlet);
                 if self.pilot.is_some() {
                     self.steer(at, snapshot, outlet);
@@ -288,18 +288,18 @@ impl Node {
                     }
                 }
             }
-            Happening::Datagram { sequence, message } => {
+            NodeInput::Datagram { sequence, message } => {
                 self.receive(at, sequence, message, snapshot, outlet);
             }
-            Happening::Planned { job, path } => {
+            NodeInput::Planned { job, path } => {
                 if let Some(place) = self.plans.iter().position(|plan| plan.0 == job) {
                     let (_, ticket) = self.plans.remove(place);
                     self.feed(at, &Input::Planned { ticket, path }, snapshot, outlet);
                 }
             }
-            Happening::Stored { job } => self.stored(at, job, snapshot, outlet),
-            Happening::Timeout => self.time_out(at, snapshot, outlet),
-            Happening::Input(input) => {
+            NodeInput::Stored { job } => self.stored(at, job, snapshot, outlet),
+            NodeInput::Timeout => self.time_out(at, snapshot, outlet),
+            NodeInput::Input(input) => {
                 if let Input::Timer(key) = input {
                     self.timers.cancel(key);
                 }

@@ -19,7 +19,7 @@ pub struct Datagram {
 }
 
 /// A path that a node wants. The host finds it, at once or later, and hands it back as
-/// [`crate::Happening::Planned`].
+/// [`crate::NodeInput::Planned`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanJob {
     /// Names the job among all jobs of this node.
@@ -30,8 +30,8 @@ pub struct PlanJob {
     pub estimate: Estimate,
 }
 
-/// A write that a node wants. It is done whole or not at all. The host says that it is on storage for good by
-/// [`crate::Happening::Stored`]; a node asks for one at a time.
+/// A write requested by a node. Writes are atomic. The host reports a completed write by [`crate::NodeInput::Stored`];
+/// a node requests one write at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoreJob {
     /// Names the job among all jobs of this node.
@@ -44,7 +44,7 @@ pub struct StoreJob {
 const SIGHT: f64 = 5.0;
 
 impl PlanJob {
-    /// The distance in metres within which [`PlanJob::run`] needs to be told of neighbours; 0 if it needs none.
+    /// The distance in metres within which [`PlanJob::run`] needs the positions of neighbours; 0 if it needs none.
     pub fn sight(&self) -> f64 {
         if self.request.around_robots {
             SIGHT
@@ -53,7 +53,7 @@ impl PlanJob {
         }
     }
 
-    /// Finds the path; none where there is none, or where the robot has no model to plan for.
+    /// Finds the path; none if there is no path, or if the robot has no model.
     pub fn run(&self, hardware: &Hardware, neighbours: &[Neighbour]) -> Option<Path> {
         let drive = hardware.drive.as_ref()?;
         planning::plan_with(
@@ -81,7 +81,7 @@ pub trait Outlet {
     /// The memory to work in. A node takes it and puts it back.
     fn workspace(&mut self) -> &mut Workspace;
 
-    /// Takes note of an event of this robot.
+    /// Records an event of this robot.
     fn record(&mut self, at: Time, event: Event);
 
     /// Sends a datagram. The node has recorded it as sent; the host records it as dropped if it cannot
@@ -100,7 +100,7 @@ pub trait Outlet {
         let _ = (at, request);
     }
 
-    /// Writes to the robot's storage. A host whose agents have no storage is never asked.
+    /// Writes to the robot's storage. It is never called if the host's agents have no storage.
     fn store(&mut self, at: Time, job: StoreJob) {
         let _ = (at, job);
     }
@@ -116,8 +116,8 @@ pub trait Outlet {
         let _ = at;
     }
 
-    /// Is shown all that is done to the robot's software, in order. A host that keeps a
-    /// [`crate::journal::Journal`] hands it on.
+    /// Receives all calls of the robot's software, in order. A host that keeps a [`crate::journal::Journal`] passes
+    /// them to it.
     fn observe(&mut self, at: Time, observed: Observed<'_>) {
         let _ = (at, observed);
     }

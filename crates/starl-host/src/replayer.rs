@@ -8,8 +8,7 @@ use core::fmt;
 use starl_core::effect::Effects;
 use starl_core::{Agent, Effect, Input, Program, Time};
 
-/// Runs a robot's software on the inputs of its journal, and compares what it asks for with what it asked
-/// for then, bit by bit.
+/// Runs a robot's software on the inputs of its journal, and compares its effects with the recorded ones, bit by bit.
 #[derive(Clone)]
 pub struct Replayer {
     fresh: Box<dyn Program>,
@@ -19,7 +18,7 @@ pub struct Replayer {
     lives: u32,
 }
 
-/// Why a replay cannot go on.
+/// Why a replay cannot continue.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Departure {
     /// The software asks for something else than it did.
@@ -57,11 +56,11 @@ impl Replayer {
         }
     }
 
-    /// Does what was done at `at`, the next entry of the journal.
+    /// Repeats the next entry of the journal, at `at`.
     ///
     /// # Errors
-    /// If the software asks for anything else than it did then: there is no point in going on, since the
-    /// inputs after are answers to what it asked for.
+    /// The effects differ from the recorded ones. The later inputs are answers to the recorded effects, so the replay
+    /// cannot continue.
     pub fn observe(&mut self, at: Time, observed: Observed<'_>) -> Result<(), Departure> {
         match observed {
             Observed::Started { random, saved } => {

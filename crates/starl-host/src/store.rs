@@ -1,4 +1,4 @@
-//! Storage in memory, for hosts that simulate: what it holds, and the write that is under way.
+//! Storage in memory for simulating hosts: its content, and the current write.
 
 use crate::StoreJob;
 use alloc::sync::Arc;
@@ -18,7 +18,7 @@ impl Store {
         self.saved.clone()
     }
 
-    /// Begins a write; a node asks for one at a time.
+    /// Begins a write; a node requests one at a time.
     pub fn begin(&mut self, at: Time, job: StoreJob, write_time: Duration) {
         self.writing = Some((at + write_time, job));
     }

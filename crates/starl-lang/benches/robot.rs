@@ -18,7 +18,7 @@ use starl_core::{
     Agent, Duration, Event, Input, Point, Pose, Program, Random, RobotId, Sensors, Time, WayPoint,
 };
 use starl_host::{
-    Clock, Datagram, Happening, Hardware, Node, Outlet, PlanJob, Snapshot, Workspace,
+    Clock, Datagram, Hardware, Node, NodeInput, Outlet, PlanJob, Snapshot, Workspace,
 };
 use starl_lang::machine::State;
 use starl_lang::robot::RobotProgram;
@@ -46,7 +46,7 @@ struct Fleet {
     sink: Sink,
 }
 
-/// Where nodes leave what they ask for; nobody looks at it but for plans.
+/// Receives the outputs of nodes; only plans are read.
 #[derive(Default)]
 struct Sink {
     workspace: Workspace,
@@ -90,7 +90,7 @@ impl Fleet {
     }
 
     /// Lets this happen to all robots, and hands them the answers of the planner; gives nanoseconds for each.
-    fn handle(&mut self, happening: &Happening) -> f64 {
+    fn handle(&mut self, happening: &NodeInput) -> f64 {
         let hardware = Hardware {
             body: Body {
                 radius: 0.1,
@@ -112,7 +112,7 @@ impl Fleet {
             node.handle(Time::ZERO, happening.clone(), &snapshot, &mut self.sink);
             if let Some(PlanJob { job, request, .. }) = self.sink.plan.take() {
                 let path = Some(vec![request.target]);
-                let answer = Happening::Planned { job, path };
+                let answer = NodeInput::Planned { job, path };
                 node.handle(Time::ZERO, answer, &snapshot, &mut self.sink);
             }
         }
@@ -120,12 +120,12 @@ impl Fleet {
     }
 }
 
-const ACTIVATE: Happening = Happening::Input(Input::Activate);
+const ACTIVATE: NodeInput = NodeInput::Input(Input::Activate);
 
 fn measure(name: &str, make: &dyn Fn() -> Box<dyn Program>) {
     let before = resident();
     let mut fleet = Fleet::new(make);
-    let began = fleet.handle(&Happening::Start) + fleet.handle(&ACTIVATE);
+    let began = fleet.handle(&NodeInput::Start) + fleet.handle(&ACTIVATE);
     let bytes = (resident() - before) / ROBOTS as usize;
     let mut times: Vec<f64> = (0..31).map(|_| fleet.handle(&ACTIVATE)).collect();
     times.sort_by(f64::total_cmp);
@@ -139,7 +139,7 @@ fn measure(name: &str, make: &dyn Fn() -> Box<dyn Program>) {
 /// The fleet as a judge of its properties sees it.
 struct Seen<'a> {
     fleet: &'a Fleet,
-    /// Whether the judge is told of whom nothing has changed.
+    /// Whether the fleet has versions, so that the judge can skip unchanged robots.
     tells_versions: bool,
 }
 
@@ -184,7 +184,7 @@ impl properties::Fleet for Seen<'_> {
 /// How long it takes to judge Race's properties, all robots and those that have changed.
 fn measure_judge(program: &RobotProgram) {
     let mut fleet = Fleet::new(&|| Box::new(program.clone()));
-    fleet.handle(&Happening::Start);
+    fleet.handle(&NodeInput::Start);
     fleet.handle(&ACTIVATE);
     for tells_versions in [false, true] {
         let seen = Seen {

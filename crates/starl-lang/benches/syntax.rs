@@ -1,6 +1,5 @@
-//! How fast programs are read and laid out: `cargo bench -p starl-lang --bench syntax` prints the best
-//! and the median milliseconds for a program of 1,000 lines. Reading and checking it together is to take
-//! less than 10.
+//! Measures the speed of parsing and formatting: `cargo bench -p starl-lang --bench syntax` prints the best and the
+//! median milliseconds for a program of 1,000 lines. Reading and checking together should take less than 10.
 
 #![allow(
     clippy::disallowed_methods,

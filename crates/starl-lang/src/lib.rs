@@ -1,8 +1,8 @@
 //! The StarL language.
 //!
-//! The [`machine`] runs what a program was compiled to, on a [`robot`] with its primitives. These two are
-//! always there and need no standard library, so that a microcontroller can run programs which were
-//! compiled elsewhere. Everything else comes with the feature `compiler`, which is on by default.
+//! The [`machine`] runs compiled programs, on a [`robot`] with its primitives. These two modules do not need the
+//! standard library, so that a microcontroller can run programs that were compiled elsewhere. Everything else needs the
+//! feature `compiler`, which is on by default.
 #![cfg_attr(
     feature = "compiler",
     doc = "

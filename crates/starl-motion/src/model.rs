@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use starl_core::motion::{Body, Estimate};
 use starl_core::{Command, Duration, Point, Pose, Twist};
 
-/// The physical state of a robot, the same shape for every model so that hosts can keep states in
-/// one array; a model leaves alone what it does not use.
+/// The physical state of a robot, the same shape for every model so that hosts can keep states in one array; a model
+/// ignores unused fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// True pose.
@@ -27,8 +27,8 @@ pub struct State {
 pub struct Disturbance {
     /// Velocity of the air, world frame, metres per second; ground robots do not feel it.
     pub wind: Point,
-    /// Relative error of what the drive is told, apart from turning: with 0.1 it is told 10 % more speed, or a
-    /// drone 10 % more tilt and climb. The limits of the model hold all the same.
+    /// Relative error of commands except turning: with 0.1 the speed is 10 % higher, or a drone's tilt and climb. The
+    /// limits of the model still apply.
     pub speed_error: f64,
     /// The same of turning: rate of turn, or a car's steering angle.
     pub turn_error: f64,
@@ -37,14 +37,14 @@ pub struct Disturbance {
 /// The cause of a stop of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// Where the body stops: where it touches what it met.
+    /// The position where the body stops at the contact.
     pub place: Point,
-    /// Unit vector from the robot's centre towards what it met, in the floor plane.
+    /// Unit vector from the robot's centre towards the contact, in the floor plane.
     pub direction: Point,
 }
 
-/// The bounds that a model's motion keeps to while it meets nothing, in calm air, with errors of its
-/// drive too. The conformance suite holds every model to them.
+/// The bounds of a model's motion without contacts, in calm air, including errors of its drive. The conformance suite
+/// checks them for every model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Greatest speed in the floor plane, metres per second.
@@ -80,9 +80,8 @@ impl Limits {
 
 /// A kind of robot with its parameters: immutable, shared by all robots of the kind.
 ///
-/// A host advances a robot in two halves: [`Model::predict`] says where it would be after a step;
-/// the host looks whether anything is in the way; [`Model::update`] makes it so, or lets the body be
-/// stopped by what it met.
+/// A host advances a robot in two halves: [`Model::predict`] computes its state after a step; the host checks for
+/// contacts; [`Model::update`] sets that state, or stops the body at its contact.
 pub trait Model: Debug + Send + Sync {
     /// The name used in scenarios, e.g. `create`.
     fn name(&self) -> &'static str;
@@ -108,7 +107,7 @@ pub trait Model: Debug + Send + Sync {
     /// finite, the command is one that the model refuses.
     fn command_of(&self, controls: &[f64]) -> Command;
 
-    /// The state of a robot that stands still at `pose`.
+    /// The state of a robot at rest at `pose`.
     fn at_rest(&self, pose: Pose) -> State;
 
     /// The state after `elapsed` under `command`, if nothing is in the way. Commands beyond the
@@ -127,7 +126,7 @@ pub trait Model: Debug + Send + Sync {
     /// remembers from one estimate to the next.
     fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;
 
-    /// Learns from an estimate while the robot is to stand still: by default nothing.
+    /// Uses an estimate while the robot should be at rest; does nothing by default.
     fn rest(&self, tracking: &mut Tracking, _: &Estimate) {
         tracking.interrupt();
     }

@@ -73,7 +73,7 @@ impl Pilot {
         };
     }
 
-    /// The distance in metres within which [`Pilot::command`] needs to be told of neighbours now;
+    /// The distance in metres within which [`Pilot::command`] needs the positions of neighbours now;
     /// none if it needs none.
     pub fn wants_neighbours(&self) -> Option<f64> {
         let tracks = matches!(self.wish, Wish::Track(_));
@@ -121,7 +121,8 @@ impl Pilot {
         model.track(&mut self.tracking, estimate, &goal)
     }
 
-    /// Whether the robot has long been pushed harder than it can hold against, while it tracks a waypoint or stands still.
+    /// Whether the robot has long been pushed harder than it can hold against, while it tracks a waypoint or stands
+    /// still.
     pub fn is_overpowered(&self, model: &dyn Model) -> bool {
         !matches!(self.wish, Wish::Drive(_)) && model.is_overpowered(&self.tracking)
     }

@@ -31,7 +31,7 @@ pub struct Scene<'a> {
 }
 
 impl Rays {
-    /// So many rays of this range, metres.
+    /// This number of rays of this range, metres.
     pub fn even(count: u32, range: f64) -> Rays {
         let bearing = |ray| math::wrap_angle(math::TAU * f64::from(ray) / f64::from(count));
         let bearings: Vec<f64> = (0..count).map(bearing).collect();

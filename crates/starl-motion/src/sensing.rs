@@ -1,7 +1,7 @@
 //! The readings of a robot's sensors for bodies and obstacles whose places are known.
 //!
-//! The simulator measures in its true world. A real robot that has no such sensors measures among the bodies that
-//! others have told it of: see `starl-node`.
+//! The simulator measures in its true world. A real robot without such sensors uses the bodies whose positions it has
+//! received: see `starl-node`.
 
 use crate::Neighbour;
 use crate::proximity::{Rays, Scene};
@@ -58,9 +58,9 @@ pub struct Readings {
     pub proximity: Vec<Ray>,
     /// Things and robots in sight, nearest first.
     pub detections: Vec<Detection>,
-    /// Whether `proximity` shows anything but empty space for the sensor it was laid out for.
+    /// Whether `proximity` shows anything except empty space for the sensor that it was prepared for.
     marked: bool,
-    /// The rays of the sensor for which `proximity` is laid out.
+    /// The rays of the sensor for which `proximity` is prepared.
     rays: Option<(Proximity, Rays)>,
     nearby: Vec<Neighbour>,
 }

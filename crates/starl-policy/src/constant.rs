@@ -1,4 +1,4 @@
-//! Tensors whose numbers stand in the file.
+//! Tensors with constant numbers.
 
 use crate::error::ModelError;
 use crate::proto;

@@ -6,7 +6,7 @@ use core::fmt;
 /// Why a model cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ModelError {
-    /// The bytes are no ONNX file, or only part of one.
+    /// The bytes are not a complete ONNX file.
     NotOnnx,
     /// The file uses operators of a version before 7.
     Version {

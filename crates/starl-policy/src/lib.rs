@@ -6,7 +6,7 @@
 //! run could not be repeated elsewhere.
 //!
 //! Networks are feed-forward and take one sample: dense layers, activations, element-wise arithmetic, concatenation,
-//! softmax and arg max. Convolutions, recurrent layers and control flow cannot.
+//! softmax and arg max. Convolutions, recurrent layers and control flow are not supported.
 
 #![no_std]
 extern crate alloc;

@@ -20,7 +20,7 @@ impl Network {
     /// Reads an ONNX file. Several inputs are joined in the order of the file, and so are outputs.
     ///
     /// # Errors
-    /// If the file is no ONNX file, or uses what is not supported.
+    /// The file is not an ONNX file, or uses unsupported features.
     pub fn read(bytes: &[u8]) -> Result<Self, ModelError> {
         graph::read(bytes)
     }
@@ -41,7 +41,7 @@ impl Network {
         steps.map(|(to, operation)| operation.cost(to.len())).sum()
     }
 
-    /// Writes the outputs for `input` to `output`, whose former content goes. Numbers are rounded to 32-bit floats before.
+    /// Writes the outputs for `input` to `output`, replacing its content. Numbers are rounded to 32-bit floats before.
     /// An output that is not a number is [`f64::NAN`].
     ///
     /// # Panics

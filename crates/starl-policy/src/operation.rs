@@ -37,7 +37,7 @@ impl Unary {
             Self::LeakyRelu(slope) if x < 0.0 => slope * x,
             Self::Log => math::log(f64::from(x)) as f32,
             Self::Negate => -x,
-            // Not `max`: what is no number stays so.
+            // Not `max`: NaN stays NaN.
             Self::Relu if x < 0.0 => 0.0,
             Self::Selu { alpha, gamma } if x < 0.0 => gamma * (alpha * (exp(x) - 1.0)),
             Self::Selu { gamma, .. } => gamma * x,
@@ -128,7 +128,7 @@ pub enum Operation {
 }
 
 impl Operation {
-    /// How many additions, multiplications and functions it takes for so many outputs.
+    /// The number of additions, multiplications and functions for this number of outputs.
     pub fn cost(&self, outputs: usize) -> usize {
         match self {
             Self::Dense { weights, .. } => weights.len(),

@@ -1,4 +1,4 @@
-//! The messages of an ONNX file, as far as they are read. Numbers of fields: `onnx.proto` of the ONNX project, version 1.19.
+//! The messages of an ONNX file that are read. Numbers of fields: `onnx.proto` of the ONNX project, version 1.19.
 
 use alloc::{string::String, vec::Vec};
 use prost::Message;

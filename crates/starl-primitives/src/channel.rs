@@ -65,7 +65,7 @@ impl Channel {
         message
     }
 
-    /// Takes an input; each message that arrives is handed to `arrive`.
+    /// Handles an input; each message that arrives is passed to `arrive`.
     pub fn handle(
         &mut self,
         robot: &mut Robot<'_>,
@@ -79,7 +79,7 @@ impl Channel {
         }
     }
 
-    /// Takes an input; gives what arrived and what other robots said of their messages.
+    /// Handles an input; returns the arrived messages and the notices of other robots about their messages.
     pub fn hear(&mut self, robot: &mut Robot<'_>, input: &Input) -> Vec<Notice> {
         let notices = self.reliable.handle(robot, input);
         self.settle(robot, notices)

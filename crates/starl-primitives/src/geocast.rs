@@ -1,15 +1,15 @@
 //! Geocast: a message to the robots in an area (thesis, section 3.3.1).
 //!
-//! The message goes to all robots in reach of the radio together with its area; each receiver decides by its own position
-//! estimate at the moment of delivery. One that is outside acknowledges and never delivers that
-//! message. Properties, with d2 = [`Geocast::delivery_bound`]:
+//! The message goes to all robots in radio range together with its area; each receiver decides by its own position
+//! estimate at the moment of delivery. One that is outside acknowledges and never delivers that message. Properties,
+//! with d2 = [`Geocast::delivery_bound`]:
 //! - exclusion: a robot whose estimate is outside the area at every moment of `[t0, t0 + d2]` does not
 //!   receive the message. This needs no assumption on the network;
 //! - inclusion: a robot whose estimate is inside throughout receives it once within that time, if it
 //!   is up, the network delivers a datagram within `longest_delay` or not at all, and not all copies
 //!   are lost;
-//! - a robot that moves in or out meanwhile may or may not receive it, by where it is when the first
-//!   copy comes.
+//! - a robot that moves in or out meanwhile may or may not receive it, depending on where it is when the first copy
+//!   arrives.
 //!
 //! Estimates may be off by the positioning system's error: an area should be drawn larger or smaller
 //! by that, whichever is safe.

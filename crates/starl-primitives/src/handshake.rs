@@ -11,10 +11,10 @@
 use starl_core::Robot;
 use starl_core::random::hash_key;
 
-/// The life of one peer that is listened to, what is known of it, and how the next is recognised.
+/// The accepted life of one peer, its state, and the token that identifies the next life.
 #[derive(Clone, Debug)]
 pub(crate) struct Handshake<T> {
-    /// The incarnation that is listened to, and what is known of it.
+    /// The accepted incarnation, and its state.
     pub heard: Option<(u32, T)>,
     /// The token that the next incarnation must answer; none if it is not asked.
     token: Option<u32>,
@@ -30,7 +30,7 @@ impl<T> Default for Handshake<T> {
 }
 
 impl<T> Handshake<T> {
-    /// Listens to no incarnation yet; the first must answer this token.
+    /// Does not listen to any incarnation yet; the first must answer this token.
     pub fn asking(token: u32) -> Handshake<T> {
         Handshake {
             heard: None,
@@ -38,7 +38,7 @@ impl<T> Handshake<T> {
         }
     }
 
-    /// The token that the next incarnation has to answer, drawn if there is none.
+    /// The token that the next incarnation must answer, drawn if there is none.
     pub fn token(&mut self, robot: &mut Robot<'_>) -> u32 {
         // The clock is mixed in so that a robot whose random stream starts over draws another one.
         *self.token.get_or_insert_with(|| {

@@ -1,5 +1,4 @@
-//! The number that tells a robot's lives apart: what it said before a crash is not taken for what it says
-//! afterwards.
+//! The number of a robot's life, by which messages from before a crash are distinguished from later ones.
 
 use starl_core::Robot;
 use starl_core::random::hash_key;

@@ -1,10 +1,10 @@
 //! The primitives of StarL: pure state machines that programs own and call (thesis, chapter 3).
 //!
 //! Communication: [`Broadcast`], [`Geocast`] and [`Unicast`], all built on one acknowledged protocol,
-//! [`reliable::Reliable`], and [`LocalBroadcast`], which promises nothing; [`SharedMemory`] and [`Register`]. Motion: [`ReachAvoid`]. Agreement: [`Mutex`],
-//! [`Registration`], [`LeaderElection`], [`Barrier`]. A program keeps primitives as fields, derives
-//! [`starl_core::Primitives`], calls their methods with its [`starl_core::Robot`] and reads their
-//! flags. No primitive waits for ever on a robot that is gone.
+//! [`reliable::Reliable`], and [`LocalBroadcast`], without guarantees; [`SharedMemory`] and [`Register`]. Motion:
+//! [`ReachAvoid`]. Agreement: [`Mutex`], [`Registration`], [`LeaderElection`], [`Barrier`]. A program keeps primitives
+//! as fields, derives [`starl_core::Primitives`], calls their methods with its [`starl_core::Robot`] and reads their
+//! flags. No primitive waits for ever for a failed robot.
 
 #![no_std]
 extern crate alloc;

@@ -1,4 +1,4 @@
-//! Local broadcast: one datagram to all robots in reach of the radio, without any promise.
+//! Local broadcast: one datagram to all robots in radio range, without guarantees.
 //!
 //! A message may be lost, late or duplicated, and is not acknowledged. It costs one datagram and no memory,
 //! whatever the size of the fleet. Use it for values that are sent repeatedly, such as positions and readings,

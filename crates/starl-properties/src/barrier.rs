@@ -191,7 +191,7 @@ impl Instance {
         let absent: Vec<RobotId> = all.filter(|peer| !has_come(peer)).collect();
         if !absent.is_empty() {
             let text = format!(
-                "robot {robot} passes generation {generation} before {} has come to it",
+                "robot {robot} passes generation {generation} before {} has arrived at it",
                 robot_list(&absent)
             );
             report([robot].into_iter().chain(absent).collect(), text);

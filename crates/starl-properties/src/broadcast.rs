@@ -71,7 +71,7 @@ impl Broadcast {
         let bound = match order {
             // That is another property: `broadcast.agreement`.
             Some(Order::Total) => return,
-            // Another message may have to be given up before this one is handed out.
+            // Another message may have to be given up before this one is delivered.
             Some(Order::Causal) => self.bound + self.bound,
             Some(Order::Fifo) | None => self.bound,
         };
@@ -81,7 +81,7 @@ impl Broadcast {
             is_causal: order == Some(Order::Causal),
             owed: others.filter(|&robot| robot != key.from).collect(),
         };
-        // A robot alone owes its message to no robot, and rightly says so.
+        // A robot alone has no receivers, so its message is complete at once.
         if !message.owed.is_empty() {
             self.outstanding.insert(key, at + bound, message);
         }
@@ -109,7 +109,7 @@ impl Broadcast {
         self.outstanding.remove(&key);
         let MessageKey { from, number, .. } = key;
         let text = format!(
-            "robot {from} says that all have acknowledged its message {number}, which was not handed to {}",
+            "robot {from} reports that all robots have acknowledged its message {number}, which was not delivered to {}",
             robot_list(&owed)
         );
         let robots: Vec<RobotId> = [from].into_iter().chain(owed).collect();

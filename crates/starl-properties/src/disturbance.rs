@@ -7,7 +7,7 @@ use super::{Excuse, Excused, Violation};
 use starl_core::event::Fault;
 use starl_core::{Duration, RobotId, Time};
 
-/// The account of a checker that judges what all robots of an instance come to agree on.
+/// The record of disturbances for a checker of an agreement among all robots of an instance.
 #[derive(Clone, Debug)]
 pub(super) struct Disturbance {
     /// For so long a fault excuses what is late, and what was made up may last.
@@ -29,7 +29,7 @@ impl Disturbance {
         }
     }
 
-    /// Takes note of what befalls one robot or the network, and drops what it excuses of what was found.
+    /// Records a fault of a robot or the network, and drops the violations that it excuses.
     pub fn change(
         &mut self,
         at: Time,
@@ -40,7 +40,7 @@ impl Disturbance {
     ) {
         self.last = at;
         let is_corruption = robot.is_some() && change.is_corruption();
-        // Invented state may outlast a partition.
+        // Invented state may survive a partition.
         if is_corruption || self.is_made_up(at) {
             self.corrupted = Some(at);
         }
@@ -62,7 +62,7 @@ impl Disturbance {
         self.last
     }
 
-    /// Whether the network is parted.
+    /// Whether the network is partitioned.
     pub fn is_parted(&self) -> bool {
         self.is_parted
     }

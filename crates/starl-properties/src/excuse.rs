@@ -1,7 +1,7 @@
 //! Excuses: deviations that do not count as violations, with their reasons.
 //!
-//! Properties are promised for robots and networks that work. Where one does not hold, or is not judged, because
-//! of a fault on record, checkers count that here, so that "holds" without a remark means that nothing was excused.
+//! Properties are guaranteed for robots and networks that work. If a property does not hold, or is not judged, because
+//! of a recorded fault, checkers count this here. So "holds" without a remark means that there were no excuses.
 
 use crate::Violation;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use std::fmt;
 pub enum Excuse {
     /// A robot that is concerned was down, or had started again since.
     Down,
-    /// A program that is concerned could not go on.
+    /// A program that is concerned could not continue.
     Failed,
     /// Sensors were frozen.
     Sensors,
@@ -23,11 +23,11 @@ pub enum Excuse {
     Motors,
     /// The state of a robot was overwritten.
     Corruption,
-    /// The network was parted.
+    /// The network was partitioned.
     Partition,
     /// A fault came so shortly before that not all had got over it.
     Recovery,
-    /// Too few robots were there to go on, or to remember.
+    /// Too few robots were up to continue, or to remember.
     NoMajority,
     /// Clocks ran wrong by more than leases count on.
     Clocks,
@@ -50,14 +50,14 @@ impl Excuse {
             Excuse::Sensors => "sensors were frozen",
             Excuse::Motors => "motors were stuck",
             Excuse::Corruption => "state was overwritten",
-            Excuse::Partition => "the network was parted",
+            Excuse::Partition => "the network was partitioned",
             Excuse::Recovery => "a fault came shortly before",
-            Excuse::NoMajority => "too few robots were there",
+            Excuse::NoMajority => "too few robots were up",
             Excuse::Clocks => "clocks ran too wrong",
             Excuse::Fall => "a robot that had crashed fell",
             Excuse::Push => "a robot was pushed",
             Excuse::Obstacle => "an obstacle appeared on a robot",
-            Excuse::Assumption => "what it assumes was not so",
+            Excuse::Assumption => "its assumption was false",
         }
     }
 }

@@ -7,10 +7,10 @@
 //!   delivery;
 //! - inclusion: a robot that has been inside throughout [t0, t0 + d2] has delivered it by then.
 //!
-//! Besides, a robot takes a message that was sent, and takes it once, inside or outside (integrity).
+//! In addition, a robot accepts only sent messages, each once, inside or outside (integrity).
 //!
-//! "Outside" and "inside" leave out a margin along the boundary within which a robot that goes by its
-//! estimate may rightly decide either way.
+//! "Outside" and "inside" exclude a margin along the boundary, within which the robot's estimate may lead to either
+//! decision.
 
 use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
@@ -299,7 +299,7 @@ fn outside<'a>(
         kept = kept.min(distance);
     }
     Some(format!(
-        "but had come no nearer to its area than {kept:.3} m since"
+        "but had stayed at least {kept:.3} m away from its area since"
     ))
 }
 

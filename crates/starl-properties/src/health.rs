@@ -26,7 +26,7 @@ pub(super) enum Needs {
 pub(super) enum Change<'a> {
     /// A fault.
     Fault(&'a Fault),
-    /// Its program cannot go on.
+    /// Its program cannot continue.
     Failed,
     /// Its body is moved from outside.
     Pushed,
@@ -94,7 +94,7 @@ impl Health {
         }
     }
 
-    /// Takes note of faults.
+    /// Records faults.
     pub fn observe(&mut self, record: &Record) {
         match &record.event {
             Event::Fault(fault) => match record.robot {
@@ -152,7 +152,7 @@ impl Health {
         self.cuts.get(&(from, to)).is_none_or(|&at| at < since)
     }
 
-    /// The excuse for a message that did not get from one robot to another from `since` on; none if there is none.
+    /// The excuse for a message between two robots that did not arrive from `since` on; none if there is none.
     pub fn excuse_of(&self, from: RobotId, to: RobotId, since: Time) -> Option<Excuse> {
         let unwell = [from, to]
             .into_iter()

@@ -77,14 +77,14 @@ pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
     /// The properties it checks.
     fn properties(&self) -> &'static [&'static str];
 
-    /// The kinds of events that it does anything at for the time being, until it has observed one of them or
-    /// time has passed: to be shown others makes no difference.
+    /// The kinds of events that affect the checker at present, until it observes one of them or time passes. Other
+    /// events may be skipped.
     fn heeds(&self) -> Kinds {
         Kinds::ALL
     }
 
-    /// Whether anything has come up that this property speaks of, where its primitive is used: not every broadcast
-    /// promises an order.
+    /// Whether the property has applied so far, if its primitive is used: for example, not every broadcast has an
+    /// order.
     fn has_subject(&self, property: &str) -> bool {
         let _ = property;
         true
@@ -96,8 +96,7 @@ pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
         Kinds::NONE
     }
 
-    /// Whether something is owed whose time is not up, so that the property can be broken without anything more being
-    /// done.
+    /// Whether a deadline is pending, so that the property can be violated without further events.
     fn is_owed(&self, property: &str) -> bool {
         let _ = property;
         false
@@ -109,11 +108,10 @@ pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Takes the next record; records come in the order of their times.
+    /// Observes the next record; records are in the order of their times.
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>);
 
-    /// Time has come to `now`, with all records before it observed: bounds that have run out are
-    /// violated.
+    /// Advances to `now`, when all records before it have been observed: deadlines that have passed are violated.
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
         let _ = (now, violations);
     }

@@ -7,18 +7,17 @@ use starl_core::motion::Obstacles;
 use starl_core::{Duration, Point, Pose, RobotId, Time, WayPoint};
 use std::any::Any;
 
-/// Watches properties on live programs. A trace does not hold what it sees, so its verdicts come again only by
-/// running again.
+/// Judges properties of live programs. Traces do not contain its observations, so only a new run can repeat its
+/// verdicts.
 pub trait Monitor: dyn_clone::DynClone + Send + Sync {
     /// The properties it watches, always in the same order.
     fn properties(&self) -> Vec<Name>;
 
-    /// Takes in the state of affairs after a step; what does not hold is added to `violations`, each
-    /// under one of the names of [`Monitor::properties`].
+    /// Observes the state after a step and adds violations to `violations`, each under one of the names of
+    /// [`Monitor::properties`].
     fn observe(&mut self, witness: &dyn Witness, violations: &mut Vec<Violation>);
 
-    /// Whether it is still open if the property with this place among [`Monitor::properties`] holds:
-    /// it demands something by a time that has not come.
+    /// Whether the property with this index among [`Monitor::properties`] is open: its deadline has not passed.
     fn is_open(&self, property: usize) -> bool;
 
     /// How often something was excused that speaks against the property with this place, by reason.
@@ -30,7 +29,7 @@ pub trait Monitor: dyn_clone::DynClone + Send + Sync {
 
 dyn_clone::clone_trait_object!(Monitor);
 
-/// The true state of affairs at a moment, as far as a host knows it. Nothing here is as a robot believes it to be.
+/// The true state of the run at a moment, as known by the host, independent of the robots' beliefs.
 pub trait Witness {
     /// The time.
     fn now(&self) -> Time;
@@ -46,7 +45,7 @@ pub trait Witness {
     /// The application's waypoints.
     fn way_points(&self) -> &[WayPoint];
 
-    /// The obstacles that stand and that all robots know of, the walls around the world included.
+    /// The existing obstacles that all robots know, including the walls around the world.
     fn obstacles(&self) -> Obstacles;
 
     /// All robots, those that are down included.

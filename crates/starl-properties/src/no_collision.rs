@@ -1,9 +1,9 @@
 //! Bodies never touch: neither each other nor obstacles.
 //!
 //! There are three independent sources: the collisions that the host reports, bodies that overlap in the
-//! recorded poses, and bodies that pass through something from one recorded pose to the next. Robots are compared only at poses of the same moment. All contacts from the first
-//! touch until the two are [`APART`] are one collision, reported once. Contacts of a robot that has
-//! crashed in the air and falls do not count.
+//! recorded poses, and bodies that pass through something from one recorded pose to the next. Robots are compared only
+//! at poses of the same moment. All contacts from the first touch until the two are [`APART`] are one collision,
+//! reported once. Contacts of a robot that has crashed in the air and falls do not count.
 
 use super::bodies::{Sweep, gap};
 use super::passing::{self, Passing, Way};
@@ -268,7 +268,7 @@ impl NoCollision {
         }
     }
 
-    /// A robot is gone, and its body with it.
+    /// A robot is removed, and its body too.
     fn left(&mut self, robot: RobotId) {
         let Some(position) = self.positions.get_mut(robot.index()) else {
             return;

@@ -1,8 +1,7 @@
-//! Messages whose time is not up.
+//! Messages whose deadline has not passed.
 //!
-//! Invariant: every message in the map is in the queue. The queue is in the order of deadlines as long
-//! as these come in order, which they do where every message has the same time; one that does not
-//! waits for those before it.
+//! Invariant: every message in the map is in the queue. The queue is in the order of deadlines if these are inserted in
+//! order, as with equal time limits; a message out of order waits for those before it.
 
 use super::report::MessageKey;
 use starl_core::Time;
@@ -45,7 +44,7 @@ impl<M> Outstanding<M> {
         removed
     }
 
-    /// Takes out a message whose deadline lies before `now`.
+    /// Removes a message whose deadline was before `now`.
     pub fn pop_overdue(&mut self, now: Time) -> Option<(Time, MessageKey, M)> {
         let &(deadline, key) = self.queue.front().filter(|(deadline, _)| *deadline < now)?;
         let message = self.messages.remove(&key);

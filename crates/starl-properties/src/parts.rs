@@ -42,7 +42,7 @@ impl Parts {
         }
     }
 
-    /// Takes note of partitions and datagrams.
+    /// Records partitions and datagrams.
     pub fn observe(&mut self, record: &Record) {
         match (&record.event, record.robot) {
             (Event::Fault(fault), None) if fault.parts() => {

@@ -91,8 +91,8 @@ impl Passing {
         }
     }
 
-    /// Takes the poses of a moment. Returns when the way before the last ended, and all robots' ways until then;
-    /// no ways if none of them is long enough to hide a contact.
+    /// Adds the poses of a moment. Returns the end of the previous interval, and all robots' paths in it; no paths if
+    /// none of them is long enough to hide a contact.
     pub fn close(
         &mut self,
         at: Time,

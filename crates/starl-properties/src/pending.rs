@@ -1,7 +1,7 @@
-//! The violation, as long as a fault that excuses it may still be recorded.
+//! Pending violations, which a fault may still excuse.
 //!
-//! Faults take effect at the beginning of the step in which they are recorded, so what robots do in a step
-//! may come on record before the fault that it is due to.
+//! Faults take effect at the beginning of the step in which they are recorded, so a robot's action in a step may be
+//! recorded before the fault that caused it.
 
 use super::{Excuse, Excused, Setting, Violation};
 use starl_core::{Duration, Time};
@@ -28,7 +28,7 @@ impl Pending {
         self.found.push_back(violation);
     }
 
-    /// A fault excuses all but these.
+    /// A fault excuses all except these.
     pub fn retain(
         &mut self,
         excuse: Excuse,
@@ -44,7 +44,7 @@ impl Pending {
         });
     }
 
-    /// Time has come to `now`: hands over what no fault can excuse any more.
+    /// Advances to `now` and reports the violations that no fault can excuse any more.
     pub fn settle(&mut self, now: Time, violations: &mut Vec<Violation>) {
         let step = self.step;
         while let Some(settled) = self.found.pop_front_if(|found| found.at + step < now) {

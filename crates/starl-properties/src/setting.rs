@@ -21,7 +21,7 @@ pub struct Setting {
     /// Properties that were watched on the running programs themselves, by a [`Monitor`](crate::Monitor): records do
     /// not show them.
     pub monitored: Vec<Name>,
-    /// A fault may come on record so much later than what robots do because of it; default 25 ms.
+    /// The longest time by which a fault may be recorded after its effects; default 25 ms.
     pub step: Duration,
     /// Time between two records of a robot's true pose, at most; default 100 ms.
     pub pose_period: Duration,
@@ -31,9 +31,9 @@ pub struct Setting {
     pub position_noise: f64,
     /// How much faster or slower than true time a robot's clock may run, as a share; default 0.
     pub clock_drift: f64,
-    /// Whether robots have storage that outlasts a crash, unless a fault says that it is lost; default false.
+    /// Whether robots have storage that survives a crash, unless it is lost by a fault; default false.
     pub keeps_storage: bool,
-    /// The robot whose records alone there are; none where there are those of all.
+    /// The only robot with records; none if all robots have records.
     pub only: Option<RobotId>,
     /// Whether a simulator wrote the records, so that poses are true and all times are those of one clock; default false.
     pub simulated: bool,
@@ -78,7 +78,7 @@ pub struct Properties {
     pub geocast: bool,
     /// The thesis's d2; default 35 s.
     pub geocast_bound: Duration,
-    /// Whether what is sent to one robot reaches it in time, and once.
+    /// Whether messages to one robot reach it in time, and once.
     pub unicast: bool,
     /// The time within which it reaches it.
     pub unicast_bound: Duration,

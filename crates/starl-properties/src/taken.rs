@@ -1,6 +1,6 @@
-//! Which messages robots were handed, so that one that is handed out twice is seen.
+//! The messages that robots have delivered, to detect a second delivery.
 //!
-//! Messages may come in any order. Their numbers are kept as runs, of which a stream mostly has one.
+//! Messages may be in any order. Their numbers are stored as intervals; a stream usually has one.
 
 use super::report::MessageKey;
 use starl_core::{Port, RobotId};
@@ -44,7 +44,7 @@ impl Taken {
         self.sent.insert(Stream::of(key, to), key.number);
     }
 
-    /// A robot takes a message that was sent to all, or to it alone. Returns what is wrong with that.
+    /// A robot accepts a message that was sent to all, or to it alone. Returns the error, if any.
     pub fn take(
         &mut self,
         robot: RobotId,
@@ -63,7 +63,7 @@ impl Taken {
         (!is_new).then_some("which it had taken before")
     }
 
-    /// A robot has crashed: it remembers nothing, and may be handed again what it was handed before.
+    /// A robot has crashed: it has lost its state, and may deliver messages again.
     pub fn forget(&mut self, robot: RobotId) {
         self.taken.retain(|(receiver, _), _| *receiver != robot);
     }
@@ -95,7 +95,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn runs_know_what_a_plain_set_knows() {
+    fn runs_agree_with_a_plain_set() {
         let mut random = Random::keyed(1, &[]);
         for _ in 0..200 {
             let (mut runs, mut set) = (Vec::new(), BTreeSet::new());

@@ -1,4 +1,4 @@
-//! Where a robot truly was, as far as its pose records tell, and how sure that is.
+//! A robot's true positions from its pose records, and their uncertainty.
 
 use crate::Setting;
 use starl_core::{Duration, Point, Time};
@@ -40,7 +40,7 @@ impl Track {
         self.samples.push_back(Sample { at, position, leg });
     }
 
-    /// Forgets what is not needed to know where the robot was from `since` on.
+    /// Drops samples that are not needed for positions from `since` on.
     pub fn forget_before(&mut self, since: Time) {
         while self.samples.get(1).is_some_and(|next| next.at <= since) {
             self.samples.pop_front();
@@ -57,11 +57,10 @@ impl Track {
     }
 }
 
-/// How far from the last sample the position can lie that a primitive acts on: the robot has moved
-/// since, and believes what the positioning system says.
+/// The greatest distance between the last sample and the position on which a primitive acts: the robot has moved since,
+/// and uses the estimates of the positioning system.
 ///
-/// It holds as long as the robot speeds up no faster than a falling body and the noise stays within
-/// six standard deviations.
+/// It holds if the robot accelerates no faster than a falling body and the noise stays within six standard deviations.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tolerance {
     /// Whatever the robot does, metres.

@@ -1,4 +1,4 @@
-//! Unicast: what is sent to a robot reaches it in time, and once.
+//! Unicast: a message to a robot reaches it in time, and once.
 //!
 //! If a sender reports a message as acknowledged, it must have arrived. A message is judged at the end of the bound
 //! or when its sender reports that it gives up, whichever is first. A message is excused if its sender or its
@@ -91,7 +91,7 @@ impl Unicast {
             return self.excused.note(INTEGRITY, Excuse::Corruption);
         }
         let MessageKey { from, number, .. } = *key;
-        let text = format!("robot {robot} was handed message {number} of robot {from}, {what}");
+        let text = format!("robot {robot} delivered message {number} of robot {from}, {what}");
         found.push(Violation::new(INTEGRITY, at, [robot, from], text));
     }
 

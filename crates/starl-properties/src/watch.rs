@@ -1,10 +1,10 @@
-//! All checkers and monitors of a run, and what they say of it.
+//! All checkers and monitors of a run, and their verdicts.
 
 use crate::{Checker, Excuse, Kinds, Monitor, Violation, Witness};
 use starl_core::event::{Event, Name};
 use starl_core::{Record, Time};
 
-/// Checkers and monitors that look at a run, and what they have found.
+/// The checkers and monitors of a run, and their violations.
 #[derive(Clone, Default)]
 pub struct Watch {
     checkers: Vec<Box<dyn Checker>>,
@@ -27,14 +27,13 @@ pub struct Verdict {
     pub violations: usize,
     /// The first time.
     pub first: Option<Violation>,
-    /// Whether it has not been violated, but would be if nothing more happened: it demands something
-    /// by a time that has not come.
+    /// Whether it is open: not violated, with a deadline that has not passed.
     pub open: bool,
     /// Whether the property applies: that of an unused primitive does not.
     pub used: bool,
     /// Whether records of all kinds came that it is judged by.
     pub has_evidence: bool,
-    /// Whether something is owed whose time was not up, so that it could still be broken.
+    /// Whether a deadline was pending, so that it could still be violated.
     pub owed: bool,
     /// How often something was excused that speaks against it, by reason.
     pub excused: Vec<(Excuse, u64)>,
@@ -59,13 +58,13 @@ impl Watch {
         self.monitors.len()
     }
 
-    /// Whether something that the monitor with this place demands has not come.
+    /// Whether the monitor with this index is open.
     pub fn is_open(&self, monitor: usize) -> bool {
         let monitor = &self.monitors[monitor];
         (0..monitor.properties().len()).any(|property| monitor.is_open(property))
     }
 
-    /// Shows the checkers the next records, in the order of their times. Time has come to `now`.
+    /// Shows the checkers the next records, in the order of their times, until `now`.
     pub fn observe(&mut self, records: &[Record], now: Time) {
         self.kinds.clear();
         self.kinds

@@ -33,7 +33,7 @@ const MEASURED: u64 = 10;
 
 #[derive(Clone, Primitives)]
 struct Sharer {
-    /// So many robots in a row share a memory.
+    /// The number of robots in a row that share a memory.
     members: u32,
     memory: SharedMemory,
     activations: u32,

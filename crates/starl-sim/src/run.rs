@@ -1,5 +1,4 @@
-//! A run from start to end: the simulation, the checkers and monitors that watch it, and what comes
-//! of it.
+//! A run from start to end: the simulation, its checkers and monitors, and the result.
 
 use crate::engine::{Programs, Simulation, StartError};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
@@ -46,7 +45,7 @@ impl Outcome {
     }
 }
 
-/// A program that cannot go on.
+/// A program that cannot continue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// Since when.
@@ -77,8 +76,8 @@ impl Run {
         self.watch.add_monitor(monitor);
     }
 
-    /// Sets what watches the scenario's [`Goal::Condition`]: the goal is reached when none of these monitors is open
-    /// any more. To be called before the first step. Without it such a goal is never reached.
+    /// Sets the monitors of the scenario's [`Goal::Condition`]: the goal is reached when none of them is open. Call it
+    /// before the first step. Without it such a goal is never reached.
     pub fn set_goal(&mut self, monitors: Vec<Box<dyn Monitor>>) {
         let first = self.watch.monitors();
         monitors
@@ -161,7 +160,7 @@ impl Run {
             .extend(self.simulation.records().iter().filter_map(Failure::of));
     }
 
-    /// Whether the run has come to its end.
+    /// Whether the run has ended.
     pub fn is_over(&self) -> bool {
         let scenario = self.simulation.scenario();
         if self.simulation.now() >= Time::ZERO + scenario.duration {
@@ -216,7 +215,7 @@ impl Run {
         }
     }
 
-    /// All programs so far that cannot go on.
+    /// All programs so far that cannot continue.
     pub fn failures(&self) -> &[Failure] {
         &self.failures
     }

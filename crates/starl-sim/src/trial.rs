@@ -1,4 +1,4 @@
-//! A run whose only question is what goes wrong: it ends as soon as anything does.
+//! A run that looks for a failure: it ends at the first one.
 
 use crate::run::{Outcome, Run};
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use std::fmt;
 pub enum Finding {
     /// This property was violated.
     Violated(Name),
-    /// A program could not go on.
+    /// A program could not continue.
     Failed,
     /// The time was up before the goal was reached, or no robot was left.
     Unreached,
@@ -35,8 +35,8 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Lets the run go on to its end, or until something goes wrong. Whether a goal that is not reached
-    /// is wrong is for the caller to say.
+    /// Lets the run continue to its end, or until something goes wrong. Whether a goal that is not reached is wrong is
+    /// for the caller to say.
     pub fn of(run: &mut Run, demands_goal: bool) -> Trial {
         Trial::watched(run, demands_goal, &mut |_| ())
     }

@@ -1,7 +1,7 @@
 //! Records written and read per second: the events of a race, with and without views.
 //!
-//! `cargo bench -p starl-trace`; one line for each case. A plain program, so that nothing but the
-//! crate itself has to be built.
+//! `cargo bench -p starl-trace`; one line for each case. A plain program, so that only the crate
+//! itself has to be built.
 
 #![allow(clippy::disallowed_methods)] // a measurement needs a clock
 

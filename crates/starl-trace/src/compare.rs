@@ -36,8 +36,7 @@ fn show(f: &mut fmt::Formatter<'_>, record: Option<&Record>) -> fmt::Result {
     }
 }
 
-/// Compares a recording with a run again while that run goes on: hand each of its records to
-/// [`Comparison::push`].
+/// Compares a recording with a repeated run during that run: pass each of its records to [`Comparison::push`].
 pub struct Comparison<I> {
     recorded: I,
     agreed: u64,

@@ -135,7 +135,7 @@ impl<R: Read> Container<R> {
         let (start, _) = (fields.u64(), fields.u64());
         let mut saved = fields.u32();
         if !self.in_summary {
-            return Err(self.damaged("the footer comes before the end of the data section"));
+            return Err(self.damaged("the footer precedes the end of the data section"));
         }
         if start.is_none() {
             return Err(self.damaged("the footer is too short"));
@@ -169,7 +169,7 @@ impl<R: Read> Container<R> {
 
     fn open_chunk(&mut self) -> Result<(), TraceError> {
         if self.in_summary {
-            return Err(self.damaged("a chunk comes after the end of the data section"));
+            return Err(self.damaged("a chunk follows the end of the data section"));
         }
         let mut fields = Fields(&self.body);
         let header = (|| {

@@ -1,8 +1,7 @@
 //! Events from JSON: the other half of [`crate::encode`].
 //!
-//! Every message comes from a file that anyone may have written: whatever is missing, doubled or of
-//! the wrong type becomes a reason, never a panic. Members that this version does not know are left
-//! out, as the version policy asks.
+//! Files are untrusted: a missing or duplicate member, or one of a wrong type, is an error with a reason, never a
+//! panic. Unknown members are ignored, by the version policy.
 
 use crate::Topic;
 use crate::json::from_base64;
@@ -12,7 +11,7 @@ use starl_core::event::{DropReason, Hit, Level, Mark, Name};
 use starl_core::event::{Fault, PrimitiveEvent};
 use starl_core::{Destination, Event, Intervention, Payload, Point, Port, Pose, RobotId};
 
-/// A decoded message: on which robot, and what happened. The error says what is wrong with it.
+/// A decoded message: on which robot, and what happened. The error names the problem.
 type Decoded = Result<(Option<RobotId>, Event), String>;
 
 /// Reads the message of a topic that carries events.

@@ -30,7 +30,7 @@ impl fmt::Display for Progress {
 /// Why a trace cannot be read, or not further.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TraceError {
-    /// The file is no MCAP file at all.
+    /// The file is not an MCAP file.
     NotMcap,
     /// It is an MCAP file that StarL did not write.
     NotStarl,
@@ -85,7 +85,7 @@ pub enum TraceError {
 }
 
 impl TraceError {
-    /// Whether all that there is of the trace can be read, and only its end is missing.
+    /// Whether the existing part of the trace is readable, and only its end is missing.
     pub fn is_missing_end(&self) -> bool {
         matches!(self, TraceError::Truncated(_) | TraceError::NoEnd(_))
     }
@@ -113,7 +113,7 @@ impl fmt::Display for TraceError {
             ),
             TraceError::NoEnd(progress) => write!(
                 f,
-                "the trace is truncated: no end record {progress}; whatever wrote it stopped before the end of the run, so record it again"
+                "the trace is truncated: no end record {progress}; its writer stopped before the end of the run, so record it again"
             ),
             TraceError::Damaged { progress, what } => write!(
                 f,
@@ -145,8 +145,8 @@ impl fmt::Display for TraceError {
 
 impl core::error::Error for TraceError {}
 
-/// Why a trace cannot be written. The writer is of no use afterwards; what was written before can be
-/// read up to the last whole chunk.
+/// Why a trace cannot be written. The writer cannot be used afterwards; the trace is readable up to the last complete
+/// chunk.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteError {
     /// The output failed, e.g. because the disk is full.

@@ -18,8 +18,8 @@ pub struct Header {
     pub program: String,
     /// The seed of all random streams.
     pub seed: u64,
-    /// The scenario in full, as TOML, with all that was overridden on the command line put in: with
-    /// `files`, enough to run it again.
+    /// The complete scenario, as TOML, with the changes of the command line applied: together with `files`, enough to
+    /// run it again.
     pub scenario: String,
     /// The texts of files that the scenario names, by the names it has for them.
     pub files: BTreeMap<String, String>,

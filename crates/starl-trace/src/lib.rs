@@ -1,14 +1,12 @@
-//! The trace format of StarL: one MCAP file that holds everything that happened in a run, for replay,
-//! for checking from outside, and for looking at in Foxglove.
+//! The trace format of StarL: one MCAP file with all events of a run, for replay, for external checks, and for viewing
+//! in Foxglove.
 //!
-//! [`Writer`] puts records and views of them into anything that takes bytes; [`Reader`] gives the
-//! records back, equal to the last bit; [`Comparison`] finds where two runs part. The format itself,
-//! topic by topic, is described in `docs/reference/trace.md`.
+//! [`Writer`] writes records and views of them; [`Reader`] reads the records exactly; [`Comparison`] finds the first
+//! difference of two runs. `docs/reference/trace.md` describes the format, topic by topic.
 //!
-//! The file begins with the metadata record `starl` and attachments that together are the
-//! [`Header`]; then come chunks of messages; the last message, on `/starl/summary`, is the
-//! [`Summary`]. Everything under `/starl/` is a record of the run, one topic for each kind of event;
-//! all other topics are views.
+//! The file begins with the metadata record `starl` and attachments that together are the [`Header`]; then chunks of
+//! messages follow; the last message, on `/starl/summary`, is the [`Summary`]. Everything under `/starl/` is a record
+//! of the run, one topic for each kind of event; all other topics are views.
 
 mod compare;
 mod container;

@@ -1,11 +1,11 @@
-//! Records and whole traces as one JSON text, for hosts that show a run while it goes on.
+//! Records and whole traces as one JSON text, for hosts that show a running run.
 
 use crate::json::Json;
 use crate::{Topic, encode};
 use starl_core::Record;
 
-/// The records as a JSON array. Each is an object with `time_ns`, the `topic`, and the `message` as it stands
-/// in a trace. Numbers that are infinite or not a number are null; a trace would refuse them.
+/// The records as a JSON array. Each is an object with `time_ns`, the `topic`, and the `message` as in a trace.
+/// Infinite numbers and NaN are null; a trace does not accept them.
 pub fn json_list<'a>(records: impl IntoIterator<Item = &'a Record>) -> Vec<u8> {
     let mut json = Json::default();
     json.mark(b'[');

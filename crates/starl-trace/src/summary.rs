@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub struct Outcome {
     /// How it ended, e.g. `finished`.
     pub outcome: String,
-    /// Hash of all that happened, as [`starl_core::Digest::value`] gives it.
+    /// The hash of all events, see [`starl_core::Digest::value`].
     pub digest: u64,
     /// When it ended.
     pub end: Time,
@@ -26,7 +26,7 @@ pub struct Summary {
     pub records: u64,
     /// How many there are on each topic that has any, by the topic's name without `/starl/`.
     pub counts: BTreeMap<String, u64>,
-    /// How many messages there are with inputs of robots; they are no records.
+    /// The number of messages with inputs of robots, which are not records.
     pub inputs: u64,
 }
 

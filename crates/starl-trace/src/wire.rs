@@ -1,7 +1,7 @@
-//! The JSON shapes of values, marks, areas and obstacles, and how they become ours.
+//! The JSON forms of values, marks, areas and obstacles, and their conversion.
 //!
-//! Each is an object in which exactly one member says what it is. Written out here rather than
-//! derived on the core types, so that the format changes only when someone means to change it.
+//! Each is an object in which exactly one member names its kind. They are written by hand and not derived on the core
+//! types, so that the format changes only on purpose.
 
 use serde::Deserialize;
 use starl_core::event::MarkShape;
@@ -88,7 +88,7 @@ impl TryFrom<Mark> for MarkShape {
             ("line", _, None) => Ok(MarkShape::Line(mark.points)),
             ("text", &[at], None) => Ok(MarkShape::Text(at)),
             (shape, ..) => Err(format!(
-                "`{shape}` is no shape with these points and radius"
+                "`{shape}` is not a shape with these points and radius"
             )),
         }
     }

@@ -13,10 +13,10 @@ use starl_core::{Event, Record, RobotId, Time};
 use std::collections::BTreeMap;
 use std::io::Write;
 
-/// Writes one trace to anything that takes bytes in order; what it writes to is not read or rewound.
+/// Writes one trace to an output, sequentially; the output is not read or rewound.
 ///
-/// The records are kept exactly, on the topics under `/starl/`. Beside them the writer makes the
-/// views that [`ViewOptions`] ask for; a reader leaves those out.
+/// The records are stored exactly, on the topics under `/starl/`. The writer also derives the views that
+/// [`ViewOptions`] enable; a reader skips those.
 pub struct Writer<W: Write> {
     output: Output<W>,
     views: Views,
@@ -41,7 +41,7 @@ pub(crate) struct Output<W: Write> {
 }
 
 impl<W: Write> Output<W> {
-    /// Writes the message that stands in `json`.
+    /// Writes the message in `json`.
     pub fn send(&mut self, channel: u16, at: Time) -> Result<(), WriteError> {
         let json = core::mem::take(&mut self.json);
         let sent = self.send_bytes(channel, at, json.bytes());
@@ -66,7 +66,7 @@ impl<W: Write> Output<W> {
         Ok(())
     }
 
-    /// Keeps a message that is not in a closed chunk yet, laid out as MCAP has it.
+    /// Keeps a message that is not in a closed chunk yet, in MCAP's format.
     fn keep(&mut self, header: &MessageHeader, data: &[u8]) {
         const HEADER: u64 = 22;
         let kept = &mut self.unfinished;
@@ -86,7 +86,7 @@ impl<W: Write> Output<W> {
         Ok(())
     }
 
-    /// Writes the view that stands in `json`; none if a number in it cannot be shown.
+    /// Writes the view in `json`; skips it if a number in it is not finite.
     pub fn send_view(&mut self, channel: u16, at: Time) -> Result<(), WriteError> {
         if self.json.is_finite() {
             self.send(channel, at)
@@ -202,9 +202,9 @@ impl<W: Write> Writer<W> {
         Ok(())
     }
 
-    /// The messages that were not given to the output yet, as records of the container. The output is a
-    /// trace that can be read up to here if they are put at its end; the next bytes that the writer gives it
-    /// go in their place, and are more. The output is flushed whenever all that it was given is complete.
+    /// The messages that were not written to the output yet, as records of the container. Appended to the output, they
+    /// make a readable trace up to here; the next bytes of the writer replace them, and are longer. The output is
+    /// flushed whenever it ends with a complete record.
     pub fn unfinished(&self) -> &[u8] {
         &self.output.unfinished
     }

@@ -6,8 +6,8 @@
 //!
 //! The actions stand in the order and under the names of the figure. Where this differs from the
 //! printed listing:
-//! - `wait` there broadcasts the index after counting it up, and `receivedMessage` counts up once more,
-//!   so a told robot would skip a point. Here the message says which waypoint was reached;
+//! - `wait` there broadcasts the index after counting it up, and `receivedMessage` counts up again,
+//!   so a robot that receives it would skip a point. Here the message says which waypoint was reached;
 //! - there any message sets the index, so one that comes late sends the robot back. Here only a
 //!   message about the present waypoint or a later one does something;
 //! - the guard of `pick` there also holds once ReachAvoid is done, so the robot would set out for the

@@ -124,7 +124,7 @@ impl AtCommand {
     }
 }
 
-/// The commands of a datagram with their sequence numbers. Lines that are no commands are left out.
+/// The commands of a datagram with their sequence numbers. Other lines are skipped.
 pub fn decode(datagram: &[u8]) -> Vec<(u32, AtCommand)> {
     let Ok(text) = str::from_utf8(datagram) else {
         return Vec::new();

@@ -32,7 +32,7 @@ impl Configuration {
         self.done == self.entries.len()
     }
 
-    /// The drone was switched off and on: everything is to be set again.
+    /// The drone was switched off and on: everything must be set again.
     pub fn restart(&mut self) {
         *self = Configuration::new(std::mem::take(&mut self.entries));
     }

@@ -48,8 +48,9 @@ const UNHEARD: Duration = Duration::from_millis(300);
 
 /// An AR.Drone on the network.
 ///
-/// The drone flies on for 2 s after its last command; the driver sends some at each call. Readings come once the drone
-/// is configured, and until then it does not take off. A drone that is in the air when the driver connects stays there.
+/// The drone flies on for 2 s after its last command; the driver sends some at each call. There are readings once the
+/// drone is configured, and until then it does not take off. A drone that is in the air when the driver connects stays
+/// there.
 #[derive(Debug)]
 pub struct Ardrone {
     commands: UdpSocket,
@@ -71,7 +72,7 @@ impl Ardrone {
     /// Opens the sockets. A drone that does not answer shows in [`Device::read`].
     ///
     /// # Errors
-    /// Where no socket can be opened, or the network has no way to the drone.
+    /// If no socket can be opened, or the network has no way to the drone.
     pub fn connect(options: &ArdroneOptions) -> Result<Ardrone, DeviceError> {
         let entries = vec![
             ("general:navdata_demo", "TRUE".to_string()),
@@ -100,7 +101,7 @@ impl Ardrone {
     /// Makes a drone that has cut its motors ready to take off again. Put it on the floor first.
     ///
     /// # Errors
-    /// Where the drone cannot be reached.
+    /// If the drone cannot be reached.
     pub fn clear_emergency(&mut self) -> Result<(), DeviceError> {
         self.fly = Some(false);
         let [on, off] = [true, false].map(|emergency| AtCommand::Reference {
@@ -146,8 +147,8 @@ impl Ardrone {
         self.heard = Instant::now();
         self.fresh = true;
         self.latest = Some(navdata);
-        // The drone passes over numbers that it has had already. The first command of a driver begins anew; if that is
-        // lost, or a stranger has sent a greater number, the drone hears nothing although commands are sent.
+        // The drone ignores sequence numbers that it has received already. The first command of a driver resets the
+        // count. If that command is lost, or another sender has used a greater number, the drone ignores all commands.
         if navdata.state & state::WATCHDOG == 0 {
             self.counted = self.heard;
         } else if self.counted.elapsed() > UNHEARD {
@@ -167,7 +168,7 @@ impl Ardrone {
                     }
                 }
                 Err(error) => match error.kind() {
-                    // Nobody listens there: the same as silence.
+                    // No process listens there: treated as silence.
                     ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => return Ok(()),
                     ErrorKind::Interrupted => {}
                     _ => return Err(error.into()),
@@ -220,8 +221,8 @@ impl Ardrone {
 }
 
 impl Device for Ardrone {
-    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is a
-    /// fault. A landing goes on until `TakeOff`: hovering would make a drone take off that has just landed.
+    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is
+    /// a fault. A landing continues until `TakeOff`: hovering would make a drone take off that has just landed.
     fn drive(&mut self, command: &Command, _: &Estimate) -> Result<(), DeviceError> {
         let understood = self.translate(command);
         let (tilt, fly) = understood.unwrap_or((None, self.fly));
@@ -263,7 +264,7 @@ impl Device for Ardrone {
             self.ask()?;
         }
         if self.heard.elapsed() > SILENCE {
-            // It may come back with its numbers and configuration begun anew.
+            // The drone may restart its sequence numbers and its configuration.
             self.latest = None;
             self.configuration.restart();
         }
@@ -275,7 +276,7 @@ impl Device for Ardrone {
             return Ok(None);
         }
         if !self.configuration.complete() {
-            // Until the first reading nobody drives it, so this is where it is configured.
+            // The drone is not driven before the first reading, so it is configured here.
             self.drive(&Command::Stop, &Estimate::default())?;
             return Ok(None);
         }
@@ -293,7 +294,7 @@ impl Device for Ardrone {
 }
 
 impl Drop for Ardrone {
-    /// Lands a drone in the air, and says so more than once, since nobody looks whether it is heard.
+    /// Lands a drone in the air. Sends the command several times, since there is no acknowledgement.
     fn drop(&mut self) {
         let landed = |latest: Navdata| {
             latest
@@ -322,7 +323,7 @@ fn socket(peer: SocketAddr) -> Result<UdpSocket, DeviceError> {
     Ok(socket)
 }
 
-/// Sends a datagram. That nobody listens shows as silence.
+/// Sends a datagram. If no process listens, there is no error, only silence.
 fn send(socket: &UdpSocket, datagram: &[u8]) -> Result<(), DeviceError> {
     match socket.send(datagram) {
         Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),

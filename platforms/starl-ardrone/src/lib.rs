@@ -14,5 +14,5 @@ pub use driver::{Ardrone, ArdroneOptions};
 
 /// The UDP port of the drone that takes AT commands.
 pub const AT_PORT: u16 = 5556;
-/// The UDP port of the drone that sends navdata to whoever writes to it.
+/// The drone's UDP port for navdata: it answers any client that sends it a packet.
 pub const NAVDATA_PORT: u16 = 5554;

@@ -35,7 +35,7 @@ pub mod state {
 pub enum ControlState {
     /// It stands on the floor.
     Landed,
-    /// It flies as it is told.
+    /// It follows commands in the air.
     Flying,
     /// It holds its place.
     Hovering,

@@ -1,4 +1,4 @@
-//! The wire formats of the AR.Drone: what is encoded is decoded, and what is altered is dropped.
+//! The wire formats of the AR.Drone: encoding and decoding agree, and altered datagrams are dropped.
 
 use starl_ardrone::at::{self, AtCommand, Tilt};
 use starl_ardrone::navdata::{ControlState, Demo, Navdata};
@@ -34,7 +34,7 @@ fn lines_are_those_of_the_developer_guide() {
 }
 
 #[test]
-fn commands_of_a_datagram_come_back() {
+fn commands_of_a_datagram_are_decoded() {
     let tilt = Tilt {
         roll: 0.25,
         pitch: -1.0,
@@ -110,7 +110,7 @@ fn navdata() -> Navdata {
 }
 
 #[test]
-fn navdata_comes_back() {
+fn navdata_is_decoded() {
     let with = navdata();
     let without = Navdata { demo: None, ..with };
     for sent in [with, without] {

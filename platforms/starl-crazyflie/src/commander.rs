@@ -57,7 +57,7 @@ pub enum SetPoint {
     },
 }
 
-/// A manoeuvre of the high-level commander, or what is about set-points as a whole.
+/// A manoeuvre of the high-level commander, or a command about set-points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Order {
     /// Manoeuvres may take the place of set-points from now on.
@@ -134,7 +134,7 @@ impl SetPoint {
         Packet::new(port::COMMANDER, 0, &content)
     }
 
-    /// Reads a packet; none if it is no set-point of these kinds, or a number in it is not finite.
+    /// Reads a packet; none if it is not a set-point of these kinds, or a number in it is not finite.
     pub fn decode(packet: &Packet) -> Option<SetPoint> {
         let (&kind, rest) = packet.content.split_first()?;
         if (packet.port, packet.channel) != (port::COMMANDER, 0) {
@@ -231,7 +231,7 @@ impl Order {
         }
     }
 
-    /// Reads a packet; none if it is no order of these kinds, or a number in it is not finite.
+    /// Reads a packet; none if it is not an order of these kinds, or a number in it is not finite.
     pub fn decode(packet: &Packet) -> Option<Order> {
         let content = &*packet.content;
         match (packet.port, packet.channel, content) {

@@ -36,7 +36,7 @@ impl CrazyflieOptions {
 const SILENCE: Duration = Duration::from_millis(1000);
 /// How often a manoeuvre is asked for until the Crazyflie shows that it flies it.
 const REPEAT: Duration = Duration::from_millis(800);
-/// A Crazyflie moves by no more between two readings, metres: a greater way is its estimator finding itself anew.
+/// The greatest motion of a Crazyflie between two readings, metres: a greater one means that its estimator was reset.
 const JUMP: f64 = 0.5;
 
 /// A Crazyflie.
@@ -65,7 +65,7 @@ impl Crazyflie {
     /// Opens the socket. A Crazyflie that does not answer shows in [`Device::read`].
     ///
     /// # Errors
-    /// Where no socket can be opened, or the network has no way to the Crazyflie.
+    /// If no socket can be opened, or the network has no way to the Crazyflie.
     pub fn connect(options: &CrazyflieOptions) -> Result<Crazyflie, DeviceError> {
         let any: IpAddr = match options.address {
             SocketAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),
@@ -88,7 +88,7 @@ impl Crazyflie {
         })
     }
 
-    /// Sends a packet. That nobody listens shows as silence.
+    /// Sends a packet. If no process listens, there is no error, only silence.
     fn send(&self, packet: &Packet) -> Result<(), DeviceError> {
         match self.socket.send(&packet.encode()) {
             Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),
@@ -107,7 +107,7 @@ impl Crazyflie {
             let length = match self.socket.recv(&mut buffer) {
                 Ok(length) => length,
                 Err(error) => match error.kind() {
-                    // Nobody listens there: the same as silence.
+                    // No process listens there: treated as silence.
                     ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => return Ok(()),
                     ErrorKind::Interrupted => continue,
                     _ => return Err(error.into()),
@@ -224,8 +224,8 @@ fn set_point(command: &Command) -> Option<SetPoint> {
 }
 
 impl Device for Crazyflie {
-    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is a
-    /// fault. A landing goes on until `TakeOff`.
+    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is
+    /// a fault. A landing continues until `TakeOff`.
     fn drive(&mut self, command: &Command, _: &Estimate) -> Result<(), DeviceError> {
         match command {
             Command::TakeOff => self.set_fly(true),
@@ -291,7 +291,7 @@ impl Device for Crazyflie {
 }
 
 impl Drop for Crazyflie {
-    /// Lands a Crazyflie in the air, and says so more than once, since nobody looks whether it is heard.
+    /// Lands a Crazyflie in the air. Sends the command several times, since there is no acknowledgement.
     fn drop(&mut self) {
         for _ in 0..5 {
             self.asked = None;

@@ -47,7 +47,7 @@ pub enum Request {
         /// How often, hundredths of a second.
         period: u8,
     },
-    /// Send a block no more.
+    /// Stop sending a block.
     Stop(u8),
     /// Remove a block.
     Delete(u8),
@@ -131,7 +131,7 @@ impl Request {
         Packet::new(port::LOG, channel, &content)
     }
 
-    /// Reads a packet; none if it is no such request.
+    /// Reads a packet; none if it is not such a request.
     pub fn decode(packet: &Packet) -> Option<Request> {
         if packet.port != port::LOG {
             return None;
@@ -203,7 +203,7 @@ impl Answer {
         Packet::new(port::LOG, channel, &content)
     }
 
-    /// Reads a packet; none if it is no such answer.
+    /// Reads a packet; none if it is not such an answer.
     pub fn decode(packet: &Packet) -> Option<Answer> {
         if packet.port != port::LOG {
             return None;

@@ -1,4 +1,4 @@
-//! One packet: a port and a channel, which say what it is about, and up to 30 bytes.
+//! One packet: a port and a channel, which define its kind, and up to 30 bytes.
 
 /// The longest content of a packet, bytes.
 pub const LONGEST: usize = 30;
@@ -33,7 +33,7 @@ pub struct Packet {
 }
 
 impl Packet {
-    /// A packet. What is longer than [`LONGEST`] is cut off.
+    /// A packet. Content beyond [`LONGEST`] bytes is cut off.
     pub fn new(port: u8, channel: u8, content: &[u8]) -> Packet {
         Packet {
             port: port & 15,

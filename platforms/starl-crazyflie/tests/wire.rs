@@ -1,4 +1,4 @@
-//! CRTP: the bytes of Bitcraze's documents, what is encoded is decoded, and any bytes are taken.
+//! CRTP: the bytes of Bitcraze's documents, encoding and decoding agree, and any bytes are handled.
 
 use starl_core::Random;
 use starl_crazyflie::Packet;
@@ -98,7 +98,7 @@ fn answers() -> Vec<Answer> {
 }
 
 #[test]
-fn packets_come_back() {
+fn packets_are_decoded() {
     let wire = |packet: Packet| Packet::decode(&packet.encode()).expect("it is a packet");
     for set_point in set_points() {
         assert_eq!(SetPoint::decode(&wire(set_point.encode())), Some(set_point));
@@ -144,7 +144,7 @@ fn bytes_are_those_of_the_documents() {
 }
 
 #[test]
-fn what_is_no_packet_is_refused() {
+fn malformed_packets_are_rejected() {
     assert_eq!(Packet::decode(&[]), None);
     assert_eq!(Packet::decode(&[0xFF]), None, "a null packet");
     assert_eq!(Packet::decode(&[0x7C; 32]), None, "too long");

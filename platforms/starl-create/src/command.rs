@@ -1,11 +1,11 @@
 //! Commands of the Open Interface: an opcode, then a number of data bytes that depends on it, big-endian.
 //!
-//! Nothing frames a command: a byte that is lost or added shifts those that follow until an opcode happens to be read
-//! as one again. A driver that repeats its command gets through.
+//! Commands have no framing: after a lost or added byte the following bytes are misread until an opcode is read as one
+//! again. A driver therefore repeats its commands.
 
 use std::collections::VecDeque;
 
-/// What the robot is told. Commands without influence on its motion and sensors are [`OpenInterface::Other`].
+/// A command to the robot. Commands without influence on its motion and sensors are [`OpenInterface::Other`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum OpenInterface {
     /// 7: restarts the robot, as if its battery had been taken out.
@@ -45,7 +45,7 @@ pub enum OpenInterface {
     Query(Vec<u8>),
     /// 148: send these packets every 15 ms.
     Stream(Vec<u8>),
-    /// 150: pause the stream or go on with it.
+    /// 150: pause the stream or continue with it.
     StreamOn(bool),
     /// 173: closes the interface; motors stop.
     Stop,
@@ -116,7 +116,7 @@ fn list(opcode: u8, packets: &[u8], out: &mut Vec<u8>) {
     out.extend(packets);
 }
 
-/// Finds commands in the bytes that arrive. Bytes that are no opcode are skipped.
+/// Finds commands in the bytes that arrive. Unknown bytes are skipped.
 #[derive(Clone, Debug, Default)]
 pub struct CommandDecoder {
     bytes: VecDeque<u8>,
@@ -152,13 +152,13 @@ impl CommandDecoder {
 }
 
 enum Length {
-    /// So many data bytes.
+    /// A fixed number of data bytes.
     Fixed(usize),
     /// The data byte `at` says how many items of `each` bytes follow it.
     Listed { at: usize, each: usize },
 }
 
-/// The data of an opcode of either robot; `None` if it is no opcode. Opcode 136 has a data byte on the older robot
+/// The data of an opcode of either robot; `None` if it is not an opcode. Opcode 136 has a data byte on the older robot
 /// and none on the newer, whose rule is taken.
 fn data_length(opcode: u8) -> Option<Length> {
     Some(match opcode {

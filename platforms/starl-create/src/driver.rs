@@ -20,7 +20,7 @@ pub struct CreateOptions {
     pub wheel_distance: f64,
     /// Bits per second of the serial line: 115200 unless the robot was set to the older 57600.
     pub baud: u32,
-    /// Whether a process stands by that stops the robot if this process dies ([`Guard`]).
+    /// Whether a guard process stops the robot if this process dies ([`Guard`]).
     pub guard: bool,
 }
 
@@ -77,7 +77,7 @@ impl Create {
     /// Opens the serial line at `path`, e.g. `/dev/ttyUSB0`, starts the robot in safe mode and asks for its sensors.
     ///
     /// # Errors
-    /// Where the line cannot be opened. A robot that does not answer shows in [`Device::read`].
+    /// If the line cannot be opened. A robot that does not answer shows in [`Device::read`].
     pub fn open(path: impl AsRef<Path>, options: &CreateOptions) -> Result<Create, DeviceError> {
         let path = path.as_ref();
         let line = SerialLine::open(path, options.baud)?;

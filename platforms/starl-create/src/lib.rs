@@ -21,7 +21,7 @@ pub const WHEEL_SPEED: f64 = 0.5;
 /// Which robot it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Generation {
-    /// The Create of 2007, which tells distances in millimetres and angles in degrees.
+    /// The Create of 2007, which reports distances in millimetres and angles in degrees.
     Create1,
     /// The Create 2 of 2014 and Roombas of the series 600, which also have counters on their wheels.
     #[default]

@@ -14,11 +14,11 @@ pub struct SerialLine {
 }
 
 impl SerialLine {
-    /// Opens the device at `path`, e.g. `/dev/ttyUSB0`, at `baud` bits per second, and throws away what it has received
-    /// so far.
+    /// Opens the device at `path`, e.g. `/dev/ttyUSB0`, at `baud` bits per second, and discards the bytes received so
+    /// far.
     ///
     /// # Errors
-    /// Where it is missing, may not be used, or is no terminal.
+    /// It is missing, not permitted, or not a terminal.
     pub fn open(path: &Path, baud: u32) -> io::Result<SerialLine> {
         let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
         let file = rustix::fs::open(path, flags, Mode::empty())?;
@@ -31,16 +31,16 @@ impl SerialLine {
         Ok(SerialLine { file })
     }
 
-    /// Sends all bytes or fails; a command that is sent in part would be completed by the next one.
+    /// Sends all bytes or fails; the next command would complete a command that is sent in part.
     ///
     /// # Errors
-    /// Where the line is gone or takes no more bytes.
+    /// The line is closed or accepts no more bytes.
     pub fn send(&self, bytes: &[u8]) -> io::Result<()> {
         let sent = rustix::io::write(&self.file, bytes)?;
         if sent < bytes.len() {
             return Err(io::Error::new(
                 io::ErrorKind::WouldBlock,
-                "the serial line takes no more bytes; is the robot connected?",
+                "the serial line accepts no more bytes; check that the robot is connected",
             ));
         }
         Ok(())
@@ -49,7 +49,7 @@ impl SerialLine {
     /// The bytes that have arrived; none if nothing has.
     ///
     /// # Errors
-    /// Where the line is gone.
+    /// The line is closed.
     pub fn receive<'a>(&self, buffer: &'a mut [u8]) -> io::Result<&'a [u8]> {
         match rustix::io::read(&self.file, &mut *buffer) {
             Ok(length) => Ok(&buffer[..length]),
@@ -61,8 +61,8 @@ impl SerialLine {
 
 /// A small process that stops the robot when this process ends in any way, `kill -9` included.
 ///
-/// The Open Interface has no watchdog: a robot whose computer falls silent drives on. The guard waits at the other
-/// end of a pipe, which the kernel closes with this process, and then sends the stop command twice, so that one gets
+/// The Open Interface has no watchdog: a robot whose computer stops sending drives on. The guard waits at the other end
+/// of a pipe, which the kernel closes with this process, and then sends the stop command twice, so that one gets
 /// through even if the last command was cut short.
 #[derive(Debug)]
 pub struct Guard {
@@ -76,7 +76,7 @@ impl Guard {
     /// Starts a guard over the line at `path`.
     ///
     /// # Errors
-    /// Where `sh` cannot be started.
+    /// If `sh` cannot be started.
     pub fn start(path: &Path) -> io::Result<Guard> {
         let script = format!(
             "trap '' INT TERM HUP QUIT; [ -c \"$1\" ] && exec 3>\"$1\" || exit; cat; printf '{STOP}{STOP}' >&3"

@@ -47,7 +47,7 @@ impl Odometry {
         self.turned += turn;
     }
 
-    /// Where a stream begins anew, counters may have begun anew too: the motion in between is unknown.
+    /// After a stream restarts, its counters may have restarted too: the motion in between is unknown.
     pub fn forget(&mut self) {
         self.counts = None;
     }

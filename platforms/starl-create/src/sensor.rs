@@ -31,21 +31,21 @@ pub mod bumps {
     pub const LEFT: u8 = 2;
     /// Either wheel has dropped: the robot is lifted. The older robot has a third wheel in front, bit 16.
     pub const WHEEL_DROP: u8 = 4 | 8 | 16;
-    /// What an emulated robot sets when it is lifted.
+    /// The bits that an emulated robot sets when it is lifted.
     pub const BOTH_WHEELS: u8 = 4 | 8;
 }
 
 /// The mode of the interface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// Nobody has opened the interface.
+    /// The interface has not been opened.
     #[default]
     Off,
     /// Sensors can be read; the robot does not drive.
     Passive,
     /// The robot drives; a cliff or a dropped wheel ends this mode.
     Safe,
-    /// The robot drives, wherever that leads.
+    /// The robot drives without safety stops.
     Full,
 }
 
@@ -63,7 +63,7 @@ impl Mode {
     }
 }
 
-/// The length of a packet that is no group, bytes.
+/// The length in bytes of a packet that is not a group.
 pub fn length(packet: u8) -> Option<usize> {
     match packet {
         7..=18 | 21 | 24 | 32 | 34..=38 | 45 | 52 | 53 | 58 => Some(1),
@@ -90,7 +90,7 @@ pub fn members(packet: u8) -> std::ops::RangeInclusive<u8> {
     }
 }
 
-/// The value of a packet whose bytes these are; `None` if they are too few or too many, or the packet is a group.
+/// The value of a packet from its bytes; `None` if their number is wrong, or the packet is a group.
 pub fn value(packet: u8, bytes: &[u8]) -> Option<i32> {
     let signed = matches!(packet, 19 | 20 | 23 | 24 | 39..=42 | 54..=57);
     match (length(packet)?, bytes) {

@@ -1,4 +1,4 @@
-//! The wire format of the Open Interface: what is encoded is decoded, whatever else is on the line.
+//! The wire format of the Open Interface: encoding and decoding agree, with any other bytes on the line.
 
 use starl_core::Random;
 use starl_create::command::{CommandDecoder, OpenInterface};
@@ -112,7 +112,7 @@ fn groups_have_the_lengths_of_the_specification() {
 }
 
 #[test]
-fn values_of_packets_come_back() {
+fn values_of_packets_are_decoded() {
     for packet in 7..=58 {
         for value in [0, 1, 77, -1, -128, -32_768, 255, 32_767, 65_535] {
             let mut bytes = Vec::new();

@@ -36,11 +36,11 @@ pub struct Rig {
     pub noise: Interference,
     /// How long the robot moves on after its driver has fallen silent. `None` if it would move on for ever.
     pub watchdog: Option<Duration>,
-    /// Whatever keeps the emulated robot running.
+    /// The handle that keeps the emulated robot running.
     pub keep: Box<dyn Any>,
 }
 
-/// A check: what it measured, or why it failed.
+/// A check: returns its measurement, or the reason of its failure.
 pub type Check = fn(Rig) -> Result<String, String>;
 
 /// The checks with their names.
@@ -58,7 +58,7 @@ pub const CHECKS: [(&str, Check); 7] = [
 const PERIOD: Duration = Duration::from_millis(50);
 /// The way that [`drives`] takes: ahead, then after a right angle to the left.
 const WAY: [Point; 2] = [Point::planar(1.0, 0.0), Point::planar(1.0, 0.6)];
-/// How near to its goal a robot comes to rest, metres.
+/// The greatest distance from its goal at which a robot stops, metres.
 const ARRIVAL: f64 = 0.12;
 /// Odometry errs by at most this part of the way.
 const ODOMETRY: f64 = 0.06;
@@ -233,14 +233,14 @@ fn travel(
             }
             if Instant::now() > limit {
                 return Err(format!(
-                    "it is at {at:?} and has not come to {target:?} within {PATIENCE:?}"
+                    "it is at {at:?} and has not reached {target:?} within {PATIENCE:?}"
                 ));
             }
             sleep(PERIOD);
         }
     }
     if readings < 20 {
-        return Err(format!("only {readings} readings have come"));
+        return Err(format!("only {readings} readings have arrived"));
     }
     Ok(length)
 }
@@ -303,7 +303,7 @@ fn stands(body: &BodyHandle) -> Result<(), String> {
     }
 }
 
-/// What a perfect localisation would say.
+/// The estimate of a perfect localisation.
 fn estimate(body: &BodyHandle, began: Instant) -> Estimate {
     let State { pose, twist, .. } = body.state();
     Estimate {

@@ -70,7 +70,7 @@ impl SetPoint {
     }
 }
 
-/// Has a body follow the attitude; one that stands takes off if it is to rise.
+/// Makes a body follow the attitude; a body on the ground takes off if it is commanded to rise.
 pub(crate) fn fly(body: &BodyHandle, command: Command) {
     let rising = matches!(command, Command::Attitude { gaz, .. } if gaz > 0.05);
     if body.state().mode != drone_mode::LANDED {

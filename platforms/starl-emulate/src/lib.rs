@@ -20,7 +20,7 @@
 //! ```
 //!
 //! Dropping a device stops its thread and closes its line. A world runs until the last handle to it and to its bodies
-//! is gone.
+//! is dropped.
 
 pub mod ardrone;
 pub mod conformance;

@@ -58,7 +58,7 @@ impl EmulatedNatNet {
     /// Streams from `address`; port 0 takes any free port.
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn start(
         world: World,
         address: SocketAddr,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
-/// A thread that looks every few milliseconds whether it is to end. Dropping this ends it and waits for that.
+/// A thread that checks every few milliseconds whether it must end. Dropping this ends it and waits for it.
 #[derive(Debug)]
 pub(crate) struct Service {
     stop: Arc<AtomicBool>,

@@ -28,7 +28,7 @@ impl EmulatedVrpn {
     /// Streams from `address`, on TCP and UDP; port 0 takes any port that is free for TCP.
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn start(world: World, address: SocketAddr) -> io::Result<EmulatedVrpn> {
         let listener = TcpListener::bind(address)?;
         let address = listener.local_addr()?;
@@ -113,7 +113,7 @@ struct Client {
     /// The client's own names of senders and kinds.
     senders: BTreeMap<i32, String>,
     kinds: BTreeMap<i32, String>,
-    /// How many bodies it has been told the names of.
+    /// The number of bodies whose names it has received.
     told: usize,
     out: Vec<u8>,
 }

@@ -1,4 +1,4 @@
-//! The driver of the AR.Drone passes the suite on the emulated one, and what is its own besides.
+//! The driver of the AR.Drone passes the suite on the emulated one, and tests of its own.
 
 use starl_ardrone::{Ardrone, ArdroneOptions};
 use starl_core::{Command, Estimate, Point, Pose};
@@ -119,7 +119,7 @@ fn signs_of_attitude_are_the_platform_s() {
     let turned = body.state().pose.yaw - 2.0;
     assert!((left.heading.unwrap() - turned).abs() < 0.1, "{turned}");
     drive(&mut driver, Command::Land, |reading| height(reading) == 0.0);
-    // A drone on the floor stays there, whatever it is told but to take off.
+    // A drone on the floor stays there, whatever the command is, except to take off.
     for command in [Command::Hover, fly(0.0, 0.1, 0.0, 1.0), Command::Stop] {
         driver.drive(&command, &Estimate::default()).unwrap();
         sleep(Duration::from_millis(100));

@@ -1,4 +1,4 @@
-//! The driver of the Crazyflie passes the suite on the emulated one, and what is its own besides.
+//! The driver of the Crazyflie passes the suite on the emulated one, and tests of its own.
 
 use starl_core::{Command, Estimate, Point, Pose};
 use starl_crazyflie::{Crazyflie, CrazyflieOptions};

@@ -1,4 +1,4 @@
-//! The driver of the Create passes the suite on the emulated one, and what is its own besides.
+//! The driver of the Create passes the suite on the emulated one, and tests of its own.
 
 use starl_core::{Command, Estimate, Obstacle, Point, Pose};
 use starl_create::sensor::Mode;
@@ -102,7 +102,7 @@ fn wall_stops_it_and_presses_its_bumper() {
 }
 
 #[test]
-fn lifted_robot_stops_and_goes_on_when_it_is_put_down() {
+fn lifted_robot_stops_until_it_is_put_down() {
     let world = World::new(Vec::new(), Noise::NONE);
     let (mut driver, body, emulated) = robot(Generation::Create2, &world);
     assert!(drive(&mut driver, |reading| reading.moved.unwrap().x > 0.001));

@@ -82,7 +82,7 @@ fn drive(driver: &mut MavlinkVehicle, command: Command, mut done: impl FnMut(&Re
 }
 
 #[test]
-fn pilot_who_takes_over_is_left_alone() {
+fn driver_stops_steering_when_a_pilot_takes_over() {
     // PX4's Position mode, ArduCopter's Stabilize.
     for (autopilot, by_hand) in [(Autopilot::Px4, 3 << 16), (Autopilot::ArduPilot, 0)] {
         let (mut driver, body, emulated) = robot(autopilot);

@@ -151,8 +151,8 @@ fn hidden_body_is_not_seen_and_a_server_that_ends_is_silent() {
 #[test]
 fn server_with_y_up_is_turned() {
     let world = World::new(Vec::new(), Noise::NONE);
-    // What a server with y up calls (1, 3, 2) is (1, -2, 3) on our floor. The emulated one knows no such axes, so the
-    // client is told a lie: z up of the server is y of the client's.
+    // A server with y up calls (1, 3, 2) the point that is (1, -2, 3) on our floor. The emulated server has z up, so
+    // the client is configured for y up and reads the server's z as y.
     let start = Pose::level(Point::new(1.0, 3.0, 2.0), 0.0);
     world.add("d1", by_name("drone").unwrap(), start).unwrap();
     let server = EmulatedNatNet::start(world, any(), Cameras::default()).unwrap();

@@ -1,4 +1,4 @@
-//! The driver of ROS 2 robots passes the suite on the emulated one, and what is its own besides.
+//! The driver of ROS 2 robots passes the suite on the emulated one, and tests of its own.
 
 use starl_core::{Command, Estimate, Obstacle, Point, Pose};
 use starl_emulate::conformance::{CHECKS, Rig};

@@ -91,7 +91,7 @@ fn body_that_is_added_later_is_seen() {
 }
 
 #[test]
-fn server_that_ends_is_told_of_and_found_again() {
+fn server_that_ends_is_reported_and_found_again() {
     let server = EmulatedVrpn::start(world(), any()).unwrap();
     let address = server.address();
     let mut client = client(address, "r1");
@@ -123,7 +123,7 @@ fn garbage_ends_a_connection_and_no_other() {
     }
     sleep(Duration::from_millis(300));
     wait(&mut client, |answer| answer.unwrap());
-    // A server that is none is no end of the client either.
+    // A server that does not speak VRPN does not end the client either.
     let fake = TcpListener::bind(any()).unwrap();
     let mut fooled = self::client(fake.local_addr().unwrap(), "r1");
     let (mut stream, _) = fake.accept().unwrap();

@@ -1,4 +1,4 @@
-//! Bodies share a floor: they stop at what is in the way, and time passes as on the wall.
+//! Bodies share a floor: they stop at obstacles, and run in wall time.
 
 use starl_core::{Command, Obstacle, Point, Pose};
 use starl_emulate::{AddError, BodyHandle, Noise, World};

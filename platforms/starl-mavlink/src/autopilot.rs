@@ -1,4 +1,4 @@
-//! What PX4 and ArduPilot call the modes that are used here.
+//! The names of the modes of PX4 and ArduPilot that are used here.
 
 use mavlink::dialects::common::MavAutopilot;
 

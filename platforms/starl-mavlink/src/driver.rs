@@ -75,7 +75,7 @@ impl MavlinkVehicle {
     /// Opens a socket. A vehicle that is not there shows in [`Device::read`].
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn connect(options: &MavlinkOptions) -> Result<MavlinkVehicle, DeviceError> {
         Ok(MavlinkVehicle {
             link: Link::open(options.listen, options.vehicle)?,
@@ -90,7 +90,7 @@ impl MavlinkVehicle {
     /// Where it listens.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn address(&self) -> std::io::Result<SocketAddr> {
         self.link.address()
     }
@@ -123,7 +123,7 @@ impl MavlinkVehicle {
         Ok(self.link.send(&message)?)
     }
 
-    /// Tells the vehicle that somebody is here, and what to send.
+    /// Announces this client to the vehicle, and requests messages.
     fn greet(&mut self) -> Result<(), DeviceError> {
         if self.greeted.is_some_and(|at| at.elapsed() < HEARTBEAT) {
             return Ok(());
@@ -225,7 +225,7 @@ impl MavlinkVehicle {
         let ready = vehicle.is_some_and(|vehicle| vehicle.armed && vehicle.mode == Mode::External);
         let standing = vehicle.is_some_and(|vehicle| vehicle.landed == Some(true));
         match autopilot {
-            // PX4 gives control to nobody who does not send set-points already.
+            // PX4 gives control only to a client that already sends set-points.
             Autopilot::Px4 => {
                 let rises = ready && height < take_off_height;
                 let climb = if rises { take_off_speed } else { 0.0 };
@@ -276,8 +276,8 @@ impl MavlinkVehicle {
 }
 
 impl Device for MavlinkVehicle {
-    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is a
-    /// fault. A landing goes on until `TakeOff`.
+    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is
+    /// a fault. A landing continues until `TakeOff`.
     fn drive(&mut self, command: &Command, _: &Estimate) -> Result<(), DeviceError> {
         self.greet()?;
         match command {
@@ -352,7 +352,7 @@ fn is_flown(command: &Command) -> bool {
 }
 
 impl Drop for MavlinkVehicle {
-    /// Lands a vehicle in the air, and says so more than once, since nobody looks whether it is heard.
+    /// Lands a vehicle in the air. Sends the command several times, since there is no acknowledgement.
     fn drop(&mut self) {
         for _ in 0..5 {
             self.asked = None;

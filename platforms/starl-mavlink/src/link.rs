@@ -43,7 +43,7 @@ impl Link {
         self.peer.is_some()
     }
 
-    /// The vehicle's system; 1, which is every vehicle's as it comes, while none is known.
+    /// The vehicle's system; 1, the default of every vehicle, until it is known.
     pub fn system(&self) -> u8 {
         self.peer.map_or(1, |(_, system)| system)
     }
@@ -58,7 +58,7 @@ impl Link {
         self.peer = None;
     }
 
-    /// Sends a message. That nobody listens shows as silence.
+    /// Sends a message. If no process listens, there is no error, only silence.
     pub fn send(&mut self, message: &MavMessage) -> io::Result<()> {
         let known = self.peer.map(|(address, _)| address);
         let Some(address) = known.or(self.first) else {
@@ -96,7 +96,7 @@ impl Link {
     }
 
     /// The messages that have arrived from the vehicle. The first autopilot that is heard is the vehicle; its first
-    /// message comes with which autopilot it is. Others are not listened to.
+    /// message is returned with the kind of autopilot. Others are ignored.
     pub fn receive(&mut self) -> io::Result<Vec<(Option<Autopilot>, MavMessage)>> {
         let mut messages = Vec::new();
         let mut buffer = [0; 2048];

@@ -1,4 +1,4 @@
-//! What the vehicle has said of itself.
+//! The state reported by the vehicle.
 
 use crate::Autopilot;
 use crate::autopilot::Mode;
@@ -99,8 +99,8 @@ impl Vehicle {
         }
     }
 
-    /// Whether it has followed set-points and is now in the air in a mode that nobody here asks for: a pilot's, or the
-    /// way home of a failsafe.
+    /// Whether it has followed set-points and is now in the air in a mode that this driver does not request: a pilot's,
+    /// or the way home of a failsafe.
     pub fn taken_over(&self) -> bool {
         self.followed && self.landed == Some(false) && matches!(self.mode, Mode::Other(_))
     }
@@ -124,7 +124,7 @@ impl Vehicle {
         }
     }
 
-    /// What it goes on to refuse for longer than it takes to get ready.
+    /// The request that the vehicle has refused for longer than it takes to become ready.
     pub fn refusal(&self) -> Option<String> {
         let refusal = self.refused?;
         let goes_on = refusal.last.elapsed() < RECENT && refusal.since.elapsed() > PATIENCE;
@@ -149,7 +149,7 @@ impl Vehicle {
         }
     }
 
-    /// What it has measured since the last call.
+    /// The measurements since the last call.
     pub fn reading(&mut self) -> Option<Reading> {
         let attitude = self.attitude.as_ref()?;
         if !std::mem::take(&mut self.fresh) {

@@ -16,7 +16,7 @@ pub fn encode(header: MavHeader, message: &MavMessage, out: &mut Vec<u8>) {
     mavlink::write_v2_msg(out, header, message).expect("a vector takes any number of bytes");
 }
 
-/// The messages of a datagram, with who has sent them.
+/// The messages of a datagram, with their senders.
 pub fn decode(datagram: &[u8]) -> Vec<(MavHeader, MavMessage)> {
     let mut found = Vec::new();
     let mut rest = datagram;

@@ -1,4 +1,4 @@
-//! MAVLink in datagrams: what is encoded is decoded, what is altered is dropped, and any bytes are taken.
+//! MAVLink in datagrams: encoding and decoding agree, altered datagrams are dropped, and any bytes are handled.
 
 use mavlink::MavHeader;
 use starl_core::Random;
@@ -41,7 +41,7 @@ fn datagram() -> Vec<u8> {
 }
 
 #[test]
-fn messages_of_a_datagram_come_back() {
+fn messages_of_a_datagram_are_decoded() {
     let sent: Vec<_> = (0..).map(header).zip(messages()).collect();
     assert_eq!(wire::decode(&datagram()), sent);
 }
@@ -94,7 +94,7 @@ fn any_bytes_are_decoded_without_a_panic() {
 }
 
 #[test]
-fn modes_come_back_from_their_numbers_and_requests() {
+fn modes_are_decoded_from_their_numbers_and_requests() {
     for autopilot in [Autopilot::Px4, Autopilot::ArduPilot] {
         for mode in [Mode::Hold, Mode::External, Mode::Land, Mode::Other(1234)] {
             assert_eq!(

@@ -43,7 +43,7 @@ impl<'a> Reader<'a> {
         Some(values)
     }
 
-    /// A number of items, each of at least `least` bytes, so that no more can be there than the slice holds.
+    /// A number of items of at least `least` bytes each, limited by the length of the slice.
     pub fn count(&mut self, least: usize) -> Option<usize> {
         let count = self.u32()? as usize;
         (count.checked_mul(least)? <= self.rest.len()).then_some(count)

@@ -17,14 +17,14 @@ pub enum UpAxis {
     Y,
 }
 
-/// Whom to follow, and where.
+/// The server and the body to follow.
 #[derive(Clone, Debug)]
 pub struct NatNetOptions {
     /// The server's command port.
     pub server: SocketAddr,
     /// The name of the rigid body in Motive.
     pub body: String,
-    /// The names of other bodies whose poses are wanted too. The server need not know them.
+    /// The names of other bodies whose poses are also read. The server need not know them.
     pub others: Vec<String>,
     /// Which axis points up.
     pub up: UpAxis,
@@ -42,7 +42,7 @@ impl NatNetOptions {
     }
 }
 
-/// Why there are no positions.
+/// The reason for missing positions.
 #[derive(Debug)]
 pub enum NatNetError {
     /// The connection failed.
@@ -89,7 +89,7 @@ impl From<io::Error> for NatNetError {
     }
 }
 
-/// How often the server is asked to go on, and how long it may be silent.
+/// How often the server is asked to continue, and how long it may be silent.
 const KEEP_ALIVE: Duration = Duration::from_millis(500);
 const SILENCE: Duration = Duration::from_millis(1000);
 /// Versions whose frames are understood.
@@ -117,7 +117,7 @@ impl NatNet {
     /// Opens a socket and asks the server for its stream. A server that does not answer shows in [`NatNet::poll`].
     ///
     /// # Errors
-    /// Where no socket can be opened, or the network has no way to the server.
+    /// If no socket can be opened, or the network has no way to the server.
     pub fn connect(options: NatNetOptions) -> Result<NatNet, NatNetError> {
         let any: IpAddr = match options.server {
             SocketAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),
@@ -142,11 +142,11 @@ impl NatNet {
     }
 
     /// The latest pose that has arrived since the last call, and when the cameras saw it; `None` if there is no new
-    /// one, as when the body is hidden. Does not block; to be called several times a second, as this keeps the server
+    /// one, as when the body is hidden. Does not block. Call it several times a second, because this keeps the server
     /// sending.
     ///
     /// # Errors
-    /// Where the server cannot be reached, is silent, or does not know the body. Call again: it may come back.
+    /// The server cannot be reached, is silent, or does not know the body. Call again: it may return.
     pub fn poll(&mut self) -> Result<Option<(Instant, Pose)>, NatNetError> {
         if self.asked.is_none_or(|asked| asked.elapsed() > KEEP_ALIVE) {
             self.ask()?;
@@ -156,7 +156,7 @@ impl NatNet {
             match self.socket.recv(&mut buffer) {
                 Ok(length) => self.take(&buffer[..length])?,
                 Err(error) => match error.kind() {
-                    // Nobody listens there: the same as silence.
+                    // No process listens there: treated as silence.
                     ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => break,
                     ErrorKind::Interrupted => {}
                     _ => return Err(error.into()),
@@ -165,7 +165,7 @@ impl NatNet {
         }
         if self.heard.elapsed() > SILENCE {
             self.heard = Instant::now();
-            // A server that comes back may number its frames and bodies anew.
+            // A server that restarts may renumber its frames and bodies.
             self.version = None;
             self.number = None;
             self.last_frame = None;

@@ -1,4 +1,4 @@
-//! Messages between client and server: a number, the length of what follows, and that.
+//! Messages between client and server: a number, the length of the content, and the content.
 
 use crate::bytes::{Reader, put_text};
 use crate::{Frame, Version, WITH_LENGTHS};
@@ -18,11 +18,11 @@ pub enum Message {
     Frame(Frame),
     /// 10, client: keep sending to me.
     KeepAlive,
-    /// 100, server: it does not know what was asked of it.
+    /// 100, server: the request is unknown.
     Unrecognized,
 }
 
-/// What a server says of itself.
+/// A server's description of itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServerInfo {
     /// The program, e.g. `Motive`.
@@ -69,7 +69,7 @@ impl Message {
         datagram
     }
 
-    /// What a datagram says in a version of the protocol; `None` if that is no message, or one that is not known here.
+    /// The message of a datagram in a version of the protocol; `None` if it is unknown or malformed.
     pub fn decode(datagram: &[u8], version: Version) -> Option<Message> {
         let mut reader = Reader::new(datagram);
         let number = reader.u16()?;
@@ -140,7 +140,7 @@ fn encode_descriptions(bodies: &[(u32, String)], version: Version, out: &mut Vec
 }
 
 /// Before descriptions told their lengths, those that come after the rigid bodies cannot be skipped; Motive puts
-/// nothing but sets of markers before them.
+/// only sets of markers before them.
 fn decode_descriptions(body: &[u8], version: Version) -> Option<Vec<(u32, String)>> {
     let mut reader = Reader::new(body);
     let count = reader.count(4)?;

@@ -1,4 +1,4 @@
-//! The wire format of NatNet: what is encoded is decoded, in each version, and any bytes are taken.
+//! The wire format of NatNet: encoding and decoding agree in each version, and any bytes are handled.
 
 use starl_core::Random;
 use starl_natnet::{Frame, Message, RigidBody, ServerInfo, Version};
@@ -39,7 +39,7 @@ fn messages() -> Vec<Message> {
 }
 
 #[test]
-fn messages_come_back_in_each_version() {
+fn messages_are_decoded_in_each_version() {
     for version in VERSIONS {
         for sent in messages() {
             let datagram = sent.encode(version);

@@ -3,8 +3,8 @@
 use starl_core::Time;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-/// Tells the time since an epoch that all robots of a fleet share. It never goes back: the system's clock is read once,
-/// and a monotonic one from then on.
+/// The time since an epoch that all robots of a fleet share. It is monotonic: the system's clock is read once, and a
+/// monotonic one from then on.
 #[derive(Clone, Copy, Debug)]
 pub struct WallClock {
     /// When the system's clock was read.

@@ -1,4 +1,4 @@
-//! The contract of a robot's hardware: what it is told, and what it measures.
+//! The interface to a robot's hardware: its commands and its measurements.
 //!
 //! An adapter for a kind of robot implements [`Device`]. The runtime calls it from one thread, several times a second,
 //! and stops the robot by itself when it loses the program, the localisation or (where so configured) the link.
@@ -10,28 +10,28 @@ use std::fmt;
 /// A robot's motors and its own sensors.
 pub trait Device: Send {
     /// Follows `command` until the next call. Called about every 50 ms with the latest command, so that a device with a
-    /// watchdog keeps moving while the program runs, and stops when it does not. `estimate` is where the robot is, for
-    /// devices that take goals in another frame than the command's.
+    /// watchdog keeps moving while the program runs, and stops when it does not. `estimate` is the robot's position,
+    /// for devices that take goals in another frame than the command's.
     ///
     /// # Errors
-    /// Where the device cannot be reached. The runtime tells the user and calls again.
+    /// The device cannot be reached. The runtime informs the user and calls again.
     fn drive(&mut self, command: &Command, estimate: &Estimate) -> Result<(), DeviceError>;
 
     /// Ends all motion as fast as is safe: wheels stop, a quadcopter in the air lands. May be called at any time, and
     /// more than once.
     ///
     /// # Errors
-    /// Where the device cannot be reached.
+    /// If the device cannot be reached.
     fn stop(&mut self) -> Result<(), DeviceError>;
 
-    /// What the device has measured since the last call; none if nothing has arrived. Does not block.
+    /// The measurements since the last call; none if there are no new ones. Does not block.
     ///
     /// # Errors
-    /// Where the device cannot be reached, or what it sends makes no sense.
+    /// The device cannot be reached, or sends malformed data.
     fn read(&mut self) -> Result<Option<Reading>, DeviceError>;
 }
 
-/// What a device measures itself. Whatever it does not measure is `None`.
+/// The measurements of a device. A quantity that it does not measure is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Motion since the last reading, in the robot's frame at the last reading: metres forward, left and up.

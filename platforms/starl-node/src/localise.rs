@@ -1,8 +1,8 @@
-//! Where the robot is: an extended Kalman filter over what its wheels say and what others see.
+//! Localisation: an extended Kalman filter over odometry and external fixes.
 //!
 //! The state is the position in the floor plane and the heading; odometry moves it, fixes of an external system (motion
-//! capture, a simulator) correct it. Height is taken from whatever measured it last. Between fixes the uncertainty grows
-//! with the way, as Thrun, Burgard and Fox describe it ("Probabilistic Robotics", 2005, chapter 5).
+//! capture, a simulator) correct it. Height is the last measured one. Between fixes the uncertainty grows with the
+//! distance driven, as Thrun, Burgard and Fox describe it ("Probabilistic Robotics", 2005, chapter 5).
 
 use crate::Reading;
 use starl_core::math::wrap_angle;
@@ -64,8 +64,8 @@ struct State {
 }
 
 impl Localiser {
-    /// A filter for a robot that starts at `start`, if that is known. With `has_fixes` an external system tells where the
-    /// robot is, and odometry only bridges its gaps.
+    /// A filter for a robot that starts at `start`, if that is known. With `has_fixes` an external system measures the
+    /// position, and odometry only bridges its gaps.
     pub fn new(accuracy: Accuracy, start: Option<Pose>, has_fixes: bool, now: Time) -> Localiser {
         let state = start.map(|pose| State::at(pose, now, accuracy));
         Localiser {
@@ -76,7 +76,7 @@ impl Localiser {
         }
     }
 
-    /// Takes in what the robot has measured itself.
+    /// Adds the robot's own measurements.
     pub fn measure(&mut self, at: Time, reading: &Reading) {
         let accuracy = self.accuracy;
         let has_fixes = self.has_fixes;
@@ -100,8 +100,8 @@ impl Localiser {
         }
     }
 
-    /// Takes in a pose that an external system has measured at `at`. Fixes that are older than the newest one are left
-    /// out, and so are glitches.
+    /// Adds a pose measured by an external system at `at`. Fixes older than the newest one are ignored, and so are
+    /// glitches.
     pub fn fix(&mut self, at: Time, pose: Pose) {
         if !pose.position.is_finite() || !pose.yaw.is_finite() {
             return;
@@ -214,7 +214,7 @@ impl State {
         }
         let expected = self.expected(accuracy);
         let apart = self.innovation(pose);
-        // A hand's width is no glitch, whatever the filter believes.
+        // A hand's width is not a glitch, whatever the filter estimates.
         (0..2).any(|i| apart[i].abs() > 0.1 && apart[i].powi(2) > GATE.powi(2) * expected[i][i])
     }
 

@@ -10,21 +10,21 @@ use std::time::{Duration, Instant};
 /// Time between two readings.
 const PERIOD: Duration = Duration::from_millis(10);
 
-/// The device is told the command this often, even if it has not changed.
+/// How often the command is sent to the device, even if it has not changed.
 const REPEAT: Duration = Duration::from_millis(50);
 
-/// A stopped device is told to stop this often.
+/// How often the command to stop is sent to a stopped device.
 const REPEAT_STOP: Duration = Duration::from_millis(200);
 
-/// The motors are stopped when the program's thread has not said anything for so long.
+/// The motors stop when the program's thread has been silent for this time.
 pub const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Tells where the robot is, from outside it.
+/// An external source of the robot's position.
 pub trait PositionSource: Send {
-    /// The newest pose since the last call, and when it was measured; none if there is none. Does not block.
+    /// The newest pose since the last call with the time of its measurement; none if there is none. Does not block.
     ///
     /// # Errors
-    /// Where the source cannot be reached, or does not know the robot. It is asked again.
+    /// The source cannot be reached, or does not know the robot. It is called again.
     fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError>;
 
     /// Where other robots were seen since the last call, if the source sees them too. Called after [`Self::poll`].
@@ -33,7 +33,7 @@ pub trait PositionSource: Send {
     }
 }
 
-/// What the device's thread tells the program's.
+/// A report from the device's thread to the program's.
 #[derive(Debug)]
 pub enum Report {
     /// The device has measured something.
@@ -46,7 +46,7 @@ pub enum Report {
     Trouble(Option<String>),
 }
 
-/// What the program wants of the motors.
+/// The program's request to the motors.
 #[derive(Clone, Debug)]
 struct Wish {
     command: Command,
@@ -64,10 +64,10 @@ pub struct Motors {
 }
 
 impl Motors {
-    /// Starts the thread, which hands what it learns to `tell`, with the times of `clock`.
+    /// Starts the thread, which passes its reports to `tell`, with the times of `clock`.
     ///
     /// # Errors
-    /// If the system gives no thread.
+    /// The system cannot start a thread.
     pub fn start(
         device: Box<dyn Device>,
         positions: Option<Box<dyn PositionSource>>,
@@ -183,7 +183,7 @@ fn drive(
     }
 }
 
-/// Tells of trouble when it begins, changes or ends. Only a call that drives shows that the device can be used again.
+/// Reports trouble when it begins, changes or ends. Only a call that drives shows that the device can be used again.
 fn report(
     trouble: &mut Option<String>,
     problem: Option<DeviceError>,
@@ -205,7 +205,7 @@ mod tests {
     use super::*;
     use std::sync::mpsc;
 
-    /// Counts what it is told.
+    /// Counts its commands.
     struct Counter(mpsc::Sender<bool>);
 
     impl Device for Counter {

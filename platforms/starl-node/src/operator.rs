@@ -12,17 +12,17 @@ use std::time::{Duration, Instant};
 /// A question is asked again after this.
 const REPEAT: Duration = Duration::from_millis(200);
 
-/// Robots are told this often that they are watched.
+/// How often robots are informed that they are watched.
 const REPEAT_WATCH: Duration = Duration::from_millis(500);
 
-/// A member of the fleet that is no robot.
+/// A member of the fleet that is an operator, not a robot.
 pub struct Operator {
     channel: Channel,
     transport: Box<dyn Transport>,
     inbox: Receiver<Arrival>,
     clock: WallClock,
     robots: Vec<Member>,
-    /// When robots were told last that they are watched.
+    /// When robots were last informed that they are watched.
     watched: Option<Instant>,
 }
 
@@ -64,21 +64,21 @@ impl Operator {
         answers.into_iter().filter_map(status).collect()
     }
 
-    /// Stops robots: their motors at once, then their processes. Gives those that have confirmed it.
+    /// Stops robots: their motors at once, then their processes. Returns those that have confirmed it.
     pub fn halt(&mut self, robots: &[Member], patience: Duration) -> Vec<Member> {
         let answers = self.question(robots, &Frame::Halt, patience);
         answers.into_keys().collect()
     }
 
-    /// Tells the program of a robot something. It is told again by nobody: a datagram can get lost.
+    /// Sends an order to the program of a robot. It is not retransmitted, so the datagram may be lost.
     pub fn order(&mut self, robot: Member, order: Order, patience: Duration) -> bool {
         // The session has to stand first.
         self.question(&[robot], &Frame::Ask, patience);
         self.send(robot, &Frame::Order(order))
     }
 
-    /// Lets all robots tell what happens on them, and takes what they have told until `end`: which robot, when that
-    /// arrived, and what it says. To be called again within a second, or robots stop to tell.
+    /// Requests the events of all robots, and returns those that arrive until `end`: the robot, the time of arrival,
+    /// and the events. Call it again within a second, or the robots stop sending.
     pub fn watch(&mut self, end: Instant) -> Vec<(Member, Instant, Seen)> {
         let is_due = self.watched.is_none_or(|at| at.elapsed() >= REPEAT_WATCH);
         if is_due {

@@ -1,4 +1,4 @@
-//! The runtime's side of a robot's node while it handles something: what it asks for is kept, and done afterwards.
+//! The runtime's side of a robot's node while it handles an input: its requests are collected, and executed afterwards.
 
 use crate::robot::Recorder;
 use crate::surroundings::Surroundings;
@@ -6,7 +6,7 @@ use starl_core::{Event, Point, Time};
 use starl_host::{Datagram, Observed, Outlet, PlanJob, StoreJob, Workspace};
 use starl_motion::Neighbour;
 
-pub(crate) struct Desk<'a> {
+pub(crate) struct RuntimeOutlet<'a> {
     pub workspace: &'a mut Workspace,
     pub recorder: &'a mut dyn Recorder,
     pub surroundings: &'a Surroundings,
@@ -18,11 +18,11 @@ pub(crate) struct Desk<'a> {
     pub plans: Vec<(PlanJob, Vec<Neighbour>)>,
     /// To be stored.
     pub writes: Vec<StoreJob>,
-    /// Why the program cannot go on.
+    /// Why the program cannot continue.
     pub failure: Option<String>,
 }
 
-impl Desk<'_> {
+impl RuntimeOutlet<'_> {
     /// Where the other robots are by now.
     fn near(&self, reach: f64) -> impl Iterator<Item = Neighbour> {
         let others = self.surroundings.others(self.now);
@@ -30,7 +30,7 @@ impl Desk<'_> {
     }
 }
 
-impl Outlet for Desk<'_> {
+impl Outlet for RuntimeOutlet<'_> {
     fn workspace(&mut self) -> &mut Workspace {
         self.workspace
     }

@@ -3,7 +3,7 @@
 use starl_core::{Duration, Time};
 use std::fmt;
 
-/// How long a robot may go on without what it needs.
+/// How long a robot may continue without what it needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Safety {
     /// Without a fresh position.
@@ -28,7 +28,7 @@ pub enum Hazard {
     NoPosition,
     /// It hears no other robot.
     NoLink,
-    /// Its program cannot go on.
+    /// Its program cannot continue.
     Failed(String),
 }
 
@@ -37,13 +37,14 @@ impl fmt::Display for Hazard {
         match self {
             Hazard::NoPosition => f.write_str("the robot does not know where it is"),
             Hazard::NoLink => f.write_str("the robot hears no other robot"),
-            Hazard::Failed(why) => write!(f, "its program cannot go on: {why}"),
+            Hazard::Failed(why) => write!(f, "its program cannot continue: {why}"),
         }
     }
 }
 
 impl Safety {
-    /// What forbids motion now, given when the position was measured and when another robot was heard.
+    /// The reason that forbids motion now, if any, given the times of the last position and of the last packet from
+    /// another robot.
     pub fn check(
         &self,
         now: Time,

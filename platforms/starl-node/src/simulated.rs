@@ -1,7 +1,7 @@
-//! A device that is no hardware: one of the simulator's robot models, stepped in real time, with nothing in its way.
+//! A simulated device: one of the simulator's robot models, stepped in real time in an empty world.
 //!
-//! For rehearsing a fleet on a desk. Devices behind their own wire protocols, in one world with walls and with each
-//! other, are emulated by the crate `starl-emulate`.
+//! It is for rehearsing a fleet on a desk. The crate `starl-emulate` emulates devices with their own wire protocols, in
+//! one world with walls and with each other.
 
 use crate::motors::PositionSource;
 use crate::{Device, DeviceError, Reading};
@@ -52,7 +52,7 @@ impl SimulatedBody {
         }
     }
 
-    /// What tells where it is, this often.
+    /// The source of its positions, with this period.
     pub fn positions(&self, period: Duration) -> SimulatedPositions {
         SimulatedPositions {
             body: self.clone(),

@@ -1,8 +1,8 @@
-//! What a robot keeps over a restart: a log in a file that survives `kill -9` and power loss.
+//! Storage of a robot that survives restarts: a log in a file that survives `kill -9` and power loss.
 //!
-//! Each write is appended as one record with its length and checksum, and is on the disk before the robot goes on. A
-//! record that a crash cut short is ignored when the file is read. When the log has grown to a multiple of what it
-//! holds, a new file with the values alone takes its place by a rename.
+//! Each write is appended as one record with its length and checksum, and is on the disk before the robot continues. An
+//! incomplete record, cut short by a crash, is ignored when the file is read. When the log has grown to a multiple of
+//! its content, a new file with the values alone replaces it by a rename.
 
 use starl_core::{Save, Saved};
 use std::fs::{File, OpenOptions};
@@ -31,7 +31,7 @@ impl Storage {
     /// damage is not used, and [`Saved::is_whole`] says so.
     ///
     /// # Errors
-    /// If the file cannot be read or written, is no storage, or another process has it open.
+    /// If the file cannot be read or written, is not a storage file, or is open in another process.
     pub fn open(path: &Path) -> io::Result<Storage> {
         let mut file = OpenOptions::new()
             .read(true)
@@ -52,7 +52,7 @@ impl Storage {
             true => (Saved::default(), 0),
             false => recover(&bytes)?,
         };
-        // What a crash cut short makes room for the next record.
+        // The next record overwrites an incomplete record.
         file.set_len(size)?;
         file.seek(SeekFrom::Start(size))?;
         if size == 0 {
@@ -72,7 +72,7 @@ impl Storage {
         Ok(storage)
     }
 
-    /// What it holds.
+    /// The stored values.
     pub fn saved(&self) -> &Saved {
         &self.saved
     }
@@ -105,7 +105,7 @@ impl Storage {
         Ok(())
     }
 
-    /// Puts a file in the place of the log that holds no value twice.
+    /// Puts a file in place of the log that holds no value twice.
     fn compact(&mut self) -> io::Result<()> {
         let mut path = self.path.clone().into_os_string();
         path.push(".new");
@@ -149,7 +149,7 @@ fn checksum(kind: u8, content: &[u8]) -> u32 {
     hasher.finalize()
 }
 
-/// What a file holds, and how many bytes of it are whole records.
+/// The content of a file, and the number of bytes in complete records.
 fn recover(bytes: &[u8]) -> io::Result<(Saved, u64)> {
     if bytes.len() < MAGIC.len() && MAGIC.starts_with(bytes) {
         // The first start was cut short before anything was saved.
@@ -310,7 +310,7 @@ mod tests {
     #[test]
     fn another_file_is_refused() {
         let path = folder("other").join("r1.store");
-        std::fs::write(&path, "a text that is no storage").unwrap();
+        std::fs::write(&path, "a text that is not a storage file").unwrap();
         assert!(
             Storage::open(&path)
                 .unwrap_err()

@@ -1,9 +1,9 @@
 //! Where the other robots are, and the sensors that are served from that.
 //!
 //! A robot learns where another one is in two ways: the system that tells it its own position sees the other one too
-//! (motion capture follows all bodies), or the other one says where it is. A fresh sighting counts before words, because
-//! a robot may err about itself and its words need the network. A robot that is neither seen nor heard for a while is
-//! taken to stand where it was last.
+//! (motion capture follows all bodies), or the other one says where it is. A fresh sighting counts before words,
+//! because a robot may err about itself and its words need the network. A robot that is neither seen nor heard for a
+//! while is taken to stand where it was last.
 //!
 //! Few robots carry a detector or a ring of distance sensors that tells robots apart. A program that needs one gets the
 //! readings that the simulator defines ([`Readings`]), measured among these places and the obstacles that the robot
@@ -32,7 +32,7 @@ pub struct Thing {
     pub position: Point,
 }
 
-/// What a robot knows of the bodies around it.
+/// The robot's knowledge of the bodies around it.
 #[derive(Debug)]
 pub(crate) struct Surroundings {
     me: RobotId,
@@ -106,7 +106,8 @@ impl Surroundings {
         others.filter_map(move |(_, other)| other.by(now))
     }
 
-    /// What the robot's sensors show at `now`, while it is at `pose`; for one without a sensor nothing.
+    /// Computes the readings of the robot's sensors at `now`, with the robot at `pose`; nothing for a robot without
+    /// sensors.
     pub fn sense(&mut self, now: Time, pose: &Pose) {
         let SensorSuite {
             proximity,
@@ -136,15 +137,15 @@ impl Surroundings {
             .read(&self.sensors, &scene, things, self.me, pose.yaw);
     }
 
-    /// What [`Surroundings::sense`] has measured last.
+    /// The last readings of [`Surroundings::sense`].
     pub fn readings(&self) -> &Readings {
         &self.readings
     }
 }
 
 impl Other {
-    /// Where it is by `now`. A position that was seen counts before one that was told, and a velocity that was told before
-    /// one that was seen, since that is a difference of positions with errors.
+    /// Where it is by `now`. A measured position is preferred to a received one, and a received velocity to a measured
+    /// one, since that is a difference of positions with errors.
     fn by(&self, now: Time) -> Option<Neighbour> {
         let is_fresh = |at: Time| now.since(at) <= FRESH;
         let seen = self.sight.estimate();
@@ -270,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn an_obstacle_hides_what_is_behind_it() {
+    fn an_obstacle_hides_bodies_behind_it() {
         let wall = Obstacle::cuboid(Point::planar(1.0, -1.0), Point::new(1.2, 1.0, 1.0));
         let mut surroundings = surroundings(Some(wall));
         surroundings.hear(RobotId(1), ms(10), place(2.0), Point::ZERO);

@@ -10,7 +10,7 @@ use std::time::Duration;
 /// A write that fails is tried again after this.
 const RETRY: Duration = Duration::from_secs(1);
 
-/// What came of a write.
+/// The result of a write.
 #[derive(Debug)]
 pub enum Written {
     /// It is on the disk.

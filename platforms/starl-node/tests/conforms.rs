@@ -32,7 +32,7 @@ struct Robots {
     now: Time,
 }
 
-/// What is under way, and what has happened.
+/// The pending inputs, and the record of events.
 #[derive(Default)]
 struct World {
     coming: Vec<(Time, RobotId, Coming)>,
@@ -171,7 +171,7 @@ impl Robots {
         self.lives[robot.index()] = Some(Core::new(self.now, setup, channel, equipment, notes));
     }
 
-    /// What is due at `now` for a robot; what is due for one that is down is lost.
+    /// The inputs due at `now` for a robot; those for a robot that is down are lost.
     fn due(&mut self, robot: RobotId) -> Vec<Incoming> {
         let now = self.now;
         let mut world = self.world.borrow_mut();
@@ -315,7 +315,7 @@ impl Drop for Robots {
 starl_host::conformance!(
     Robots,
     skip clocks_run_wrong = "a robot has no other clock than that of its process",
-    skip a_corrupted_robot_goes_on_until_it_restarts = "nobody overwrites a real robot's state",
-    skip the_next_life_goes_on_with_the_next_number =
+    skip a_corrupted_robot_continues_until_it_restarts = "nobody overwrites a real robot's state",
+    skip the_next_life_continues_the_numbers =
         "a robot's datagrams are numbered from the time of its start",
 );

@@ -1,7 +1,7 @@
 //! Common Data Representation: plain CDR, little-endian, behind four bytes that say so.
 //!
-//! Values are aligned to their size, measured from the end of those four bytes. A reader never reads beyond the end, and
-//! reserves no more memory than the bytes that are there.
+//! Values are aligned to their size, measured from the end of those four bytes. A reader never reads beyond the end,
+//! and reserves no more memory than the bytes that are there.
 
 /// The four bytes that plain little-endian CDR begins with.
 const HEADER: [u8; 4] = [0, 1, 0, 0];
@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
         self.get().map(f32::from_le_bytes)
     }
 
-    /// So many numbers, one after the other.
+    /// The given number of numbers, one after the other.
     pub fn f64s<const COUNT: usize>(&mut self) -> Option<[f64; COUNT]> {
         let mut values = [0.0; COUNT];
         for value in &mut values {

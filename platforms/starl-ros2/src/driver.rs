@@ -58,8 +58,8 @@ const SLACK: f64 = 0.2;
 
 /// A ROS 2 robot with two wheels.
 ///
-/// It takes `Twist` or `TwistStamped` on `cmd_vel`, whichever a node of the robot has subscribed to. A robot's own drivers
-/// stop it when velocities cease to come: after 0.5 s with `diff_drive_controller` and the Create 3.
+/// It takes `Twist` or `TwistStamped` on `cmd_vel`, whichever a node of the robot has subscribed to. A robot's own
+/// drivers stop it when no more velocities arrive: after 0.5 s with `diff_drive_controller` and the Create 3.
 #[derive(Debug)]
 pub struct Ros2Robot {
     options: Ros2Options,
@@ -92,7 +92,7 @@ impl Ros2Robot {
     /// Begins to connect. A router or a robot that is not there shows in [`Device::read`], and may come later.
     ///
     /// # Errors
-    /// Where the endpoint or a name is malformed, or the system gives no thread.
+    /// If the endpoint or a name is malformed, or the system gives no thread.
     pub fn connect(options: &Ros2Options) -> Result<Ros2Robot, DeviceError> {
         let namespace = &options.namespace;
         let is_name = namespace.starts_with('/') && graph::is_name(namespace);

@@ -1,8 +1,8 @@
 //! Names in the graph of ROS 2, as rmw_zenoh puts them into the keys of Zenoh.
 //!
-//! A topic's messages are put under `DOMAIN/TOPIC/TYPE/HASH`. Each node, publisher and subscription declares a liveliness
-//! token under `@ros2_lv`, by which others know that it is there, and what it speaks. A `/` in a part of a token is
-//! written as `%`.
+//! A topic's messages are put under `DOMAIN/TOPIC/TYPE/HASH`. Each node, publisher and subscription declares a
+//! liveliness token under `@ros2_lv`, by which others know that it is there, and what it speaks. A `/` in a part of a
+//! token is written as `%`.
 
 use std::fmt;
 
@@ -27,7 +27,7 @@ impl Qos {
         reliable: true,
         depth: 10,
     };
-    /// Of sensors: what is late is of no use.
+    /// Of sensors: late data is useless.
     pub const SENSOR_DATA: Qos = Qos {
         reliable: false,
         depth: 5,
@@ -133,7 +133,7 @@ pub fn any_token(domain: u32, role: Role, topic: &str) -> String {
     format!("{TOKENS}/{domain}/*/*/*/{code}/*/*/*/{topic}/*/*/*")
 }
 
-/// The topic in an endpoint's token; `None` if it is no such token.
+/// The topic in an endpoint's token; `None` if it is not such a token.
 pub fn topic_of_token(token: &str) -> Option<Topic> {
     let parts: Vec<&str> = token.split('/').collect();
     let [TOKENS, .., name, kind, hash, _qos] = *parts.as_slice() else {

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Whom to follow, and where.
+/// The server and the body to follow.
 #[derive(Clone, Debug)]
 pub struct VrpnOptions {
     /// The server.
@@ -53,7 +53,7 @@ impl fmt::Display for VrpnError {
 
 impl std::error::Error for VrpnError {}
 
-/// A tracker that is not told of for so long is out of sight.
+/// A tracker is out of sight after this long without a report.
 const SILENCE: Duration = Duration::from_millis(1000);
 /// How long to wait for a connection, and before the next try.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -112,7 +112,7 @@ impl Vrpn {
     /// not block.
     ///
     /// # Errors
-    /// Where the server cannot be reached or has not told of the tracker for a second. Call again: it may come back.
+    /// If the server cannot be reached or has not reported the tracker for a second. Call again: it may come back.
     pub fn poll(&mut self) -> Result<Option<(Instant, Pose)>, VrpnError> {
         let mut seen = self.shared.seen();
         if let Some(pose) = seen.pose.take() {

@@ -1,5 +1,5 @@
-//! The stream of a connection: a greeting each way, then messages, big-endian and padded to 8 bytes. Kinds of messages and
-//! their senders have numbers, which messages of their own give names to.
+//! The stream of a connection: a greeting each way, then messages, big-endian and padded to 8 bytes. Kinds of messages
+//! and their senders have numbers, which messages of their own give names to.
 
 use std::fmt;
 
@@ -32,17 +32,17 @@ pub struct Message {
     pub sender: i32,
     /// The number of the kind.
     pub kind: i32,
-    /// What it says.
+    /// Its content.
     pub body: Vec<u8>,
 }
 
-/// The stream cannot be read on: it is no VRPN, or bytes are missing.
+/// The stream cannot be read further: it is not VRPN, or bytes are missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Broken;
 
 impl fmt::Display for Broken {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("what the other end sends is no VRPN 7")
+        f.write_str("the other end does not send VRPN 7")
     }
 }
 
@@ -84,7 +84,7 @@ impl Message {
         out.extend(self.time.1.to_be_bytes());
         out.extend(self.sender.to_be_bytes());
         out.extend(self.kind.to_be_bytes());
-        // A number that nobody reads.
+        // An unused number.
         out.extend([0; 4]);
         out.extend(&self.body);
         out.extend(std::iter::repeat_n(0, padding(self.body.len())));
@@ -118,7 +118,7 @@ impl Place {
         body
     }
 
-    /// What a body says; `None` if it is too short or a number is none.
+    /// The content of a body; `None` if it is too short or a number is NaN.
     pub fn decode(body: &[u8]) -> Option<Place> {
         let number = |index: usize| {
             let bytes = body.get(8 + 8 * index..16 + 8 * index)?;
@@ -149,7 +149,7 @@ impl Decoder {
     /// The next message; `None` if more bytes must come first.
     ///
     /// # Errors
-    /// Where the stream cannot be read on.
+    /// If the stream cannot be read on.
     pub fn pop(&mut self) -> Result<Option<Message>, Broken> {
         if !self.greeted {
             let sure = self.bytes.len().min(VERSION.len());

@@ -63,7 +63,7 @@ fn names_and_places_come_back() {
 }
 
 #[test]
-fn stream_that_is_no_vrpn_is_broken() {
+fn other_streams_are_rejected() {
     for start in [&b"HTTP/1.1"[..], b"vrpn: ver. 08.00", b"\0"] {
         let mut decoder = Decoder::default();
         decoder.push(start);

@@ -1,7 +1,7 @@
 //! Zenoh as the network of a fleet (Eclipse Zenoh, <https://zenoh.io>).
 //!
-//! Each member of a fleet `F` subscribes to the key `starl/F/NUMBER`, and a packet for a member is put there. Members are
-//! peers that connect to each other, directly or by gossip, or clients of a router; the robots of a fleet may be in
+//! Each member of a fleet `F` subscribes to the key `starl/F/NUMBER`, and a packet for a member is put there. Members
+//! are peers that connect to each other, directly or by gossip, or clients of a router; the robots of a fleet may be in
 //! several networks as long as routers join them. No multicast is used. Packets are protected by
 //! [`starl_node::link::Channel`] as on any link; TLS comes beneath that where it is configured.
 
@@ -16,7 +16,7 @@ use zenoh::config::Config;
 use zenoh::qos::CongestionControl;
 use zenoh::{Session, Wait};
 
-/// So many packets may wait to be sent. More are lost.
+/// The number of packets that may wait to be sent. More are lost.
 const QUEUE: usize = 4096;
 
 /// How a member joins the network.
@@ -24,11 +24,11 @@ const QUEUE: usize = 4096;
 pub struct ZenohOptions {
     /// Where it listens, e.g. `tcp/0.0.0.0:7447`.
     pub listen: Vec<String>,
-    /// Whom it connects to, e.g. `tcp/192.168.0.1:7447`. Those that are not there yet are tried again for ever.
+    /// The endpoints to connect to, e.g. `tcp/192.168.0.1:7447`. Unreachable ones are retried for ever.
     pub connect: Vec<String>,
     /// Its part in the network.
     pub mode: Mode,
-    /// What encrypts links whose endpoints begin with `tls/`.
+    /// The certificates for links whose endpoints begin with `tls/`.
     pub tls: Option<Tls>,
 }
 
@@ -129,7 +129,7 @@ impl Zenoh {
             .name("zenoh".to_string())
             .spawn(move || {
                 for (to, packet) in queue {
-                    // Whoever cannot be reached now is a case that programs are made for.
+                    // Programs tolerate unreachable members.
                     let _ = sender
                         .put(key(&fleet, to), packet)
                         .congestion_control(CongestionControl::Drop)

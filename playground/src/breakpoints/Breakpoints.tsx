@@ -16,7 +16,7 @@ const robot = signal("");
 const expression = signal("");
 const refusal = signal<{ text: string; expression: string; diagnostics: Diagnostic[] } | null>(null);
 
-/** A list of more robots is no help. */
+/** A list of more robots does not help. */
 const LISTED = 500;
 
 export function Breakpoints() {

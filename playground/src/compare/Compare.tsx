@@ -128,7 +128,7 @@ function Side({ recording, index, time }: { recording: Recording; index: number;
             </span>
           </li>
         ))}
-        {differs === undefined && <li class="differs">Nothing more happens in this run.</li>}
+        {differs === undefined && <li class="differs">This run is over.</li>}
       </ol>
     </section>
   );

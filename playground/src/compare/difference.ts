@@ -60,7 +60,7 @@ function equal(one: unknown, other: unknown): boolean {
   );
 }
 
-/** The records around a place: so many before it, and so many from it on. */
+/** The records around a place: `before` of them before it, and `after` from it on. */
 export function around(list: Event[], index: number, before: number, after: number): Event[] {
   const at = countBefore(list, index);
   return list.slice(Math.max(0, at - before), at + after);

@@ -1,4 +1,4 @@
-// The project's files: tabs, the editor, and what is wrong.
+// The project's files: tabs, the editor, and diagnostics.
 
 import { useEffect, useState } from "preact/hooks";
 import { checked, diagnostics } from "../project/checking.ts";

@@ -1,4 +1,4 @@
-// All that is wrong with the files.
+// The diagnostics of the files.
 
 import { diagnostics } from "../project/checking.ts";
 import { explain } from "./explain.tsx";

@@ -61,7 +61,7 @@ function add(found: Block[], kind: Block["kind"], text: string, glue: string): v
 
 const PARTS = /(`[^`]+`|\*\*[^*]+\*\*|\*[^*\s][^*]*\*|\[[^\]]+\]\([^)]+\))/;
 
-/** Links are shown as their text: where they lead is no part of the page. */
+/** Links are shown as their text: their targets are not part of the page. */
 function inline(text: string): ComponentChildren[] {
   return text.split(PARTS).map((part, index) => {
     const key = `${index}`;

@@ -143,7 +143,7 @@ function keepKeys(event: Event): void {
   event.stopPropagation();
 }
 
-/** A diagnostic with the changes that would put it right, where the checker knows them. */
+/** A diagnostic with the changes that fix it, where the checker knows them. */
 type Fixable = Diagnostic & { edits?: (Place & { text: string })[] };
 
 function fix(view: EditorView, edits: (Place & { text: string })[]): void {

@@ -2,7 +2,7 @@
 
 import scenario from "../../../apps/starl-catalog/src/default.toml?raw";
 
-/** The scenario of programs that have none, which a person can go on from. */
+/** The scenario of programs that have none, which a person can extend. */
 const SCENARIO = `# What is run: the robots, their world and the radio.\n${scenario.replace(/^#.*\n/gm, "")}
 [network]
 delay = "15ms"

@@ -45,7 +45,7 @@ export class Client {
     this.#worker = this.#start();
   }
 
-  /** Ends the worker for good. */
+  /** Ends the worker permanently. */
   end(): void {
     this.#worker.terminate();
     for (const { reject } of this.#waiting.values()) reject(new EngineError("the run was ended"));

@@ -20,7 +20,7 @@ import {
 /** Time of the processor that a slice takes, and the pause after it in which the page is heard, ms. */
 const SLICE = 12;
 const BREATH = 4;
-/** While the run is not shown in its own pace, updates that come more often than this are of no use, ms. */
+/** While the run is not shown in its own pace, the least time between updates, ms. */
 const REPORT_EVERY = 500;
 
 type Post = (update: Update, transfer: Transferable[]) => void;
@@ -33,7 +33,7 @@ export class Driver {
   #position = 0;
   #recorded = 0;
   #lastFrame = -1;
-  /** All that the page has applied, in that order. */
+  /** Everything that the page has applied, in that order. */
   #interventions: { at: number; intervention: Intervention }[] = [];
   #snapshots: Snapshots;
   #inspected: number[] = [];

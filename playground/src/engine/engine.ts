@@ -38,7 +38,7 @@ export type Engine = Asynchronous<
 
 export type { Batch, Status };
 
-/** Everything but poses and estimates, which make up most of a run and which frames show. */
+/** Everything except poses and estimates, which make up most of a run and which frames show. */
 export const RECORDED = [
   "sent",
   "delivered",

@@ -1,4 +1,4 @@
-// From where workers load the WebAssembly module. The embedded page has module.embedded.ts in the place of this.
+// From where workers load the WebAssembly module. The embedded page has module.embedded.ts instead of this.
 
 import wasm from "../../wasm/starl.wasm?url";
 

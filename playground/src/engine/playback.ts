@@ -1,6 +1,6 @@
-// Plays a trace, from a file of the user or from the server. The run is known as far as it is read; reading goes on in
-// the background until the end. The trace of a fleet that runs has no end before the command is stopped; while it plays,
-// the moment shown is the latest one, unless a person has gone back.
+// Plays a trace, from a file of the user or from the server. The run is known as far as it is read; reading continues
+// in the background until the end. The trace of a fleet that runs has no end before the command is stopped; while it
+// plays, the moment shown is the latest one, unless a person has gone back.
 
 import type { McapTypes } from "@mcap/core";
 import type { Recorded } from "../../../apps/starl-wasm/starl.d.mts";

@@ -130,7 +130,7 @@ export type Request =
   | { trace: true }
   | { check: starl.Files }
   | { examples: true }
-  /** A request of the simulator that is handed on as it is. */
+  /** A request of the simulator that is passed on unchanged. */
   | { raw: unknown };
 
 export type ToWorker = { id: number; request: Request };

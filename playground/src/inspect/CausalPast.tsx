@@ -14,7 +14,7 @@ export function CausalPast() {
   const list = past.last;
   return (
     <section aria-label="Causal past">
-      <h2>What could have led to it</h2>
+      <h2>Possible causes</h2>
       <p class="muted">
         {past.count.toLocaleString("en")} events at {past.until.size}{" "}
         {past.until.size === 1 ? "robot" : "robots"} came before {marked.value?.text}, directly or through{" "}

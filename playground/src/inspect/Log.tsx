@@ -1,5 +1,5 @@
-// All that happened, one line an event. The line of the moment shown is kept in view; a click jumps to the moment of
-// a line.
+// Everything that happened, one line an event. The line of the moment shown is kept in view; a click jumps to the
+// moment of a line.
 
 import { signal, useComputed, useSignal, useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";

@@ -1,4 +1,5 @@
-// All that is known of the chosen robots at the moment shown, beside each other, with what has just changed marked.
+// Everything that is known of the chosen robots at the moment shown, beside each other, with what has just changed
+// marked.
 
 import { signal, useSignal } from "@preact/signals";
 import { colorOf } from "../app/colors.ts";
@@ -30,7 +31,7 @@ export function Looked() {
   changes.update(run.now.value, robots, at);
   const playing = run.playing.value;
   const of = run.fleet.value.length;
-  if (robots.length === 0) return <p class="muted">The robot is being looked into.</p>;
+  if (robots.length === 0) return <p class="muted">The state of the robot is loading.</p>;
   return (
     <div class="looked">
       <table>

@@ -127,7 +127,7 @@ function Violations() {
       <h2>
         {list.length} {list.length === 1 ? "violation" : "violations"}
       </h2>
-      <p class="muted">Choose one to go to its moment and to see what could have led to it.</p>
+      <p class="muted">Choose one to go to its moment and to see its possible causes.</p>
       <div style={{ height: `${Math.min(list.length, MOST_ROWS) * ROW + 2}px`, display: "grid" }}>
         <VirtualList
           label="Violations"

@@ -40,7 +40,7 @@ function Robot({ robot }: { robot: number }) {
         <dd>({point(0)}) m</dd>
         <dt>heading</dt>
         <dd>{((at(3) * 180) / Math.PI).toFixed(1)}°</dd>
-        <dt>believes to be at</dt>
+        <dt>estimated position</dt>
         <dd>({point(6)}) m</dd>
       </dl>
       <h3>Last events</h3>

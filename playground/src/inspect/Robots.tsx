@@ -12,7 +12,7 @@ export function Robots() {
   return (
     <div class="robots">
       <Fleet />
-      {!chosen && <p class="muted">Choose a robot to look into it.</p>}
+      {!chosen && <p class="muted">Choose a robot to inspect it.</p>}
       {chosen && (run.live.value ? <Looked /> : <Recorded />)}
     </div>
   );

@@ -22,7 +22,7 @@ export class Changes {
 
   /** Takes in the moment `now`, shown at the real time `at`. */
   update(now: number, robots: { id: number; sections: Section[] }[], at: number): void {
-    // A moment that is told again keeps its marks; steering it may add some.
+    // A moment that is reported again keeps its marks; steering it may add some.
     if (now !== this.#now) this.#moment++;
     this.#now = now;
     const seen = new Map<string, Seen>();

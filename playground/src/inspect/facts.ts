@@ -68,7 +68,7 @@ const variables = (robot: Robot, parameter: boolean): Fact[] =>
     .filter((variable) => variable.parameter === parameter)
     .map(({ name, type, value }) => ({ name, value, hint: type }));
 
-/** Timers that one primitive armed in the same way are told apart by their order. */
+/** Timers that one primitive armed in the same way are distinguished by their order. */
 function timers(robot: Robot): Fact[] {
   const seen = new Map<string, number>();
   return robot.timers.map(({ owner, port, kind, due, due_simulated }) => {
@@ -95,7 +95,7 @@ function body(robot: Robot): Fact[] {
       restless: true,
     },
     {
-      name: "believes to be at",
+      name: "estimated position",
       value: point(estimate.pose.position),
       hint: `${(far * 100).toFixed(1)} cm from where it is`,
       restless: true,

@@ -1,10 +1,10 @@
-// The events that pass a filter, kept up to date as the run goes on: each event is looked at once. A long list is
+// The events that pass a filter, kept up to date as the run continues: each event is looked at once. A long list is
 // looked through in slices, so that the page stays free.
 
 import type { Event, Events } from "../run/events.ts";
 import { firstWhere } from "../run/search.ts";
 
-/** So many events are looked at between two looks at the clock. */
+/** The number of events that are filtered between two reads of the clock. */
 const BETWEEN = 512;
 
 export class Filtered {

@@ -1,4 +1,4 @@
-// The violations that are known, those after the moment shown included: a report tells of those before only.
+// The violations that are known, those after the moment shown included: a report has only those before.
 
 import { effect, signal } from "@preact/signals";
 import { run } from "../app/context.ts";
@@ -18,7 +18,7 @@ effect(() => {
   const known = run.known.value;
   const before = opened === run.opened.value ? violations.peek() : [];
   opened = run.opened.value;
-  // Violations are told in the order of their times, so the longer list contains the other one.
+  // Violations are reported in the order of their times, so the longer list contains the other one.
   const kept = before.at(-1)?.at ?? 0;
   const still = kept > known ? before.filter(({ at }) => at <= known) : before;
   const next = report.length >= still.length ? report : still;

@@ -63,16 +63,14 @@ export const STEPS: Step[] = [
     given: both(programs.FIRST),
     solution: both(programs.FIRST),
     isDone: ({ run }) => (run?.now ?? 0) >= 10,
-    after: (
-      <p>All of them go for the first place, A. One gets there; the others stand in each other's way.</p>
-    ),
+    after: <p>All of them drive to the first place, A. One arrives; the others block each other.</p>,
   },
   {
     title: "Make a mistake",
     text: (
       <>
         <p>
-          The guard asks whether there is a first place at all. Leave that out: delete{" "}
+          The guard tests whether there is a first place. Remove that test: delete{" "}
           <code>and some place = way_points().first()</code>, and put <code>way_points().first()</code> where{" "}
           <code>place</code> stood in the last line.
         </p>
@@ -81,10 +79,10 @@ export const STEPS: Step[] = [
     ),
     solution: both(programs.WRONG),
     isDone: ({ diagnostics }) => diagnostics?.some(({ code }) => code === "E0221") ?? false,
-    after: <p>A list may be empty, so its first element may be none, and nobody can drive to none.</p>,
+    after: <p>A list may be empty, so its first element may be none, and no robot can drive to none.</p>,
   },
   {
-    title: "Put it right",
+    title: "Fix it",
     text: <p>Undo your change (Ctrl+Z), or type it again, until there are no problems.</p>,
     solution: both(programs.FIRST),
     isDone: isClean,
@@ -95,8 +93,8 @@ export const STEPS: Step[] = [
     text: (
       <>
         <p>
-          Now they look everywhere: this program has a memory, and drives to the nearest place that is still
-          open. But it does not know when to end. Add an action at its end:
+          Now they search everywhere: this program remembers its searches, and drives to the nearest place
+          that is still open. But it never ends. Add an action at its end:
         </p>
         <pre>{programs.FINISH.trim()}</pre>
         <p>
@@ -108,16 +106,18 @@ export const STEPS: Step[] = [
     solution: both(programs.FINISHING),
     isDone: ({ run }) => (run?.report?.progress.finished ?? 0) > 0,
     after: (
-      <p>Robots that have looked everywhere finish. It takes long, since each of them looks everywhere.</p>
+      <p>
+        Robots that have searched everywhere finish. It takes long, because each of them searches everywhere.
+      </p>
     ),
   },
   {
-    title: "Say what it is for",
+    title: "Write a property",
     text: (
       <>
         <p>
-          Four robots should share the work. Say so at the end of the program. No robot can check this, since
-          none sees into another; the simulator can, all the time:
+          Four robots should share the work. Declare this at the end of the program. No robot can check it,
+          because a robot does not see the variables of others. The simulator checks it in every step:
         </p>
         <pre>{programs.ONCE.trim()}</pre>
         <p>Run it.</p>
@@ -127,8 +127,8 @@ export const STEPS: Step[] = [
     isDone: (seen) => verdict(seen, "Hunt.once") === "violated",
     after: (
       <p>
-        The promise is broken: two robots have looked at the same place. <b>Properties</b>, on the right,
-        tells which and when. How should one know what the others have found?
+        The property is violated: two robots have searched the same place. <b>Properties</b>, on the right,
+        shows which and when. How can a robot know what the others have found?
       </p>
     ),
   },
@@ -142,7 +142,7 @@ export const STEPS: Step[] = [
         <pre>{`${programs.MESSAGE.trim()}\n\nradio = Broadcast()`}</pre>
         <p>
           In <code>arrive</code>, add <code>radio.broadcast(Found(target));</code> before{" "}
-          <code>loc = choose</code>. And say what a robot does when it hears this:
+          <code>loc = choose</code>. And declare what a robot does when it receives this:
         </p>
         <pre>{programs.HANDLER.trim()}</pre>
         <p>Run it to the end.</p>
@@ -151,7 +151,7 @@ export const STEPS: Step[] = [
     solution: both(programs.TEAM),
     isDone: (seen) =>
       isOver(seen) && seen.run?.outcome === "reached" && verdict(seen, "Hunt.once") === "holds",
-    after: <p>The goal is reached in half a minute, and the promise holds.</p>,
+    after: <p>The goal is reached in half a minute, and the property holds.</p>,
   },
   {
     title: "Make the radio bad",
@@ -166,33 +166,31 @@ export const STEPS: Step[] = [
       /^(0?\.30*|30(\.0*)?\s*%)$/.test(String(lossOf(seen) ?? "")) &&
       isOver(seen) &&
       (seen.run?.report?.messages.lost ?? 0) > 0,
-    after: (
-      <p>Broadcast sends again what nobody has acknowledged. Messages, on the right, shows the lost ones.</p>
-    ),
+    after: <p>Broadcast sends unacknowledged messages again. Messages, on the right, shows the lost ones.</p>,
   },
   {
     title: "Change the world",
     text: (
       <p>
-        On the map under <b>Scenario</b>, choose <b>Waypoint</b> and click where a fifth place is to be. You
+        On the map under <b>Scenario</b>, choose <b>Waypoint</b> and click the position of a fifth place. You
         can drag it with <b>Move</b>. Run it to the end.
       </p>
     ),
     solution: both(programs.TEAM, programs.FIVE),
     isDone: (seen) => wayPoints(seen) >= 5 && isOver(seen),
-    after: <p>The program knew nothing of a fifth place: it asks for the waypoints when it starts.</p>,
+    after: <p>The program did not know the fifth place: it reads the waypoints when it starts.</p>,
   },
   {
     title: "Break it",
     text: (
       <p>
         Robots break down. Run the program again, pause it after about ten seconds, click a robot, and crash
-        it under <b>Steer</b>, on the right. Or add a fault to the scenario. Then let it go on.
+        it under <b>Steer</b>, on the right. Or add a fault to the scenario. Then continue the run.
       </p>
     ),
     solution: both(programs.TEAM, programs.CRASH),
     isDone: ({ run }) => run?.down ?? false,
-    after: <p>Do the others finish? They look at the places that the lost robot has not told of.</p>,
+    after: <p>Do the others finish? They search the places that the lost robot has not reported.</p>,
   },
   {
     title: "Your own program",
@@ -200,10 +198,10 @@ export const STEPS: Step[] = [
       <>
         <p>
           Begin with an empty file: four robots, four places, the same world. Write a program in which all
-          robots finish. For example: they drive to the first place; the one that gets there tells the others,
+          robots finish. For example: they drive to the first place; the robot that arrives tells the others,
           and all are done.
         </p>
-        <p>The end of this lesson is a run of yours that reaches its goal.</p>
+        <p>This lesson ends when one of your runs reaches its goal.</p>
       </>
     ),
     given: { "mine.starl": "program Mine\n" },

@@ -22,7 +22,7 @@ export function Orders() {
   const nobody = target.value !== "all" && targets.value.length === 0;
   return (
     <>
-      <p class="muted">Programs hear an order in their handler of the same name.</p>
+      <p class="muted">A program receives an order in its handler of the same name.</p>
       <Text label="Order" value={order} placeholder="go_home" />
       <label class="field">
         <span>Fields, one a line</span>

@@ -8,7 +8,7 @@ import { Choice, Numeric } from "./inputs.tsx";
 import { steer } from "./steering.ts";
 import { target, targets } from "./targets.ts";
 
-/** A list of more robots is no help. */
+/** A list of more robots does not help. */
 const LISTED = 200;
 
 const ACTS: { label: string; hint: string; make: (robots: number[]) => Intervention }[] = [
@@ -17,7 +17,7 @@ const ACTS: { label: string; hint: string; make: (robots: number[]) => Intervent
     hint: "It stops and hears nothing until it restarts",
     make: (crash) => ({ fault: { crash } }),
   },
-  { label: "Restart", hint: "Its software begins anew", make: (restart) => ({ fault: { restart } }) },
+  { label: "Restart", hint: "Its software starts again", make: (restart) => ({ fault: { restart } }) },
   {
     label: "Corrupt state",
     hint: "Its program's variables are overwritten at random",
@@ -26,11 +26,11 @@ const ACTS: { label: string; hint: string; make: (robots: number[]) => Intervent
   { label: "Stick motors", hint: "It cannot move", make: (stuck_motor) => ({ fault: { stuck_motor } }) },
   {
     label: "Freeze sensors",
-    hint: "It senses the same as now",
+    hint: "Its sensors keep their present readings",
     make: (frozen_sensor) => ({ fault: { frozen_sensor } }),
   },
   { label: "Repair", hint: "Motors and sensors work again", make: (repair) => ({ fault: { repair } }) },
-  { label: "Leave", hint: "It leaves the run for good", make: (leave) => ({ leave }) },
+  { label: "Leave", hint: "It leaves the run permanently", make: (leave) => ({ leave }) },
 ];
 
 export function RobotFaults() {

@@ -56,7 +56,7 @@ function knob(knob: NetworkKnob): string {
   return `${words} ${value}${name === "range" ? " m" : ""}`;
 }
 
-/** The intervention that a record of `/starl/intervention` tells of; null if it cannot be read. */
+/** The intervention that a record of `/starl/intervention` describes; null if it cannot be read. */
 export function recorded(text: unknown): Intervention | null {
   try {
     const value = JSON.parse(String(text));

@@ -147,7 +147,7 @@ function draw(canvas: HTMLCanvasElement): Scene {
 
 const textOf = (event: Event): string => `${seconds(event.time, 3)}  ${describe(event, nameOf)}`;
 
-/** A message is shown; an event is gone to. */
+/** A click on a message shows it; a click on an event jumps to its time. */
 function choose(found: Mark | Arrow | null): void {
   if (!found) {
     chosen.value = null;

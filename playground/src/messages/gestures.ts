@@ -60,7 +60,7 @@ export class Gestures {
       if (was > 10 && is > 10) zoom(was / is, (here.y + other.y) / 2);
     } else {
       const change = here.y - before.y;
-      // Across the diagram only columns move, so that it can go on following the moment shown.
+      // Across the diagram only columns move, so that it still follows the moment shown.
       if (change !== 0) panTime((-change / Math.max(1, size.value.height)) * span.value);
       panColumns(before.x - here.x);
     }

@@ -1,5 +1,5 @@
 // Which datagram was sent, delivered and lost where, and what happened at each robot, in order. Kept up to date as the
-// run goes on: each event is looked at once.
+// run continues: each event is looked at once.
 
 import type { Event, Events } from "../run/events.ts";
 import { firstWhere } from "../run/search.ts";
@@ -19,7 +19,7 @@ const SEQUENCES = 2 ** 32;
 export class Traffic {
   /** The events of each robot, in order. */
   robots: Event[][] = [];
-  /** Which type of primitive has a port, where it has told of itself. */
+  /** Which type of primitive has a port, where it has reported itself. */
   ports = new Map<number, string>();
   /** The longest time from a sender to a receiver so far, s. */
   longest = 0;
@@ -40,7 +40,7 @@ export class Traffic {
     return this.#datagrams.get(from * SEQUENCES + sequence);
   }
 
-  /** The datagram that an event tells of. */
+  /** The datagram of an event. */
   of({ topic, message }: Event): Datagram | undefined {
     switch (topic) {
       case "/starl/sent":

@@ -1,4 +1,4 @@
-// How many messages were sent, delivered and lost in each second of a run, counted as it goes on.
+// How many messages were sent, delivered and lost in each second of a run, counted as it continues.
 
 import { kindOf } from "../inspect/kinds.ts";
 import type { Events } from "../run/events.ts";

@@ -1,4 +1,4 @@
-// A chart as an SVG file. It needs nothing but itself, so it can be put into a paper or a page.
+// A chart as an SVG file. It is self-contained, so it can be put into a paper or a page.
 
 import { type Chart, type Line, type Range, rangeOf, thin, ticksOf } from "./chart.ts";
 

@@ -1,4 +1,4 @@
-// Columns for plots of robots, made from the frames of a run as it goes on: each frame is looked at once.
+// Columns for plots of robots, made from the frames of a run as it continues: each frame is looked at once.
 
 import { POSE_NUMBERS } from "../engine/types.ts";
 import type { Frame, History } from "../run/history.ts";

@@ -11,7 +11,7 @@ export async function begin(): Promise<void> {
   keepChecking();
   const example = new URLSearchParams(location.search).get("example");
   if (example) {
-    // Another visit to the page goes on with what was made of the example.
+    // Another visit to the page continues with the edited example.
     history.replaceState(null, "", location.pathname);
     await openExample(example, { play: false });
   } else if (returning) {

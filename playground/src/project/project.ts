@@ -1,4 +1,4 @@
-// The project that the page shows, and all that is done to it. Every change is kept in the browser at once.
+// The project that the page shows, and everything that is done to it. Every change is kept in the browser at once.
 
 import { batch, effect, signal } from "@preact/signals";
 import { type Project, pathProblem, scenarioOf } from "./model.ts";

@@ -52,7 +52,7 @@ export class Run {
   /** The opened target. */
   readonly source = signal<Source | null>(null);
   readonly opening = signal(false);
-  /** Why nothing could be opened, or why the run could not go on. */
+  /** Why nothing could be opened, or why the run could not continue. */
   readonly problem = signal<EngineError | null>(null);
 
   /** The moment shown, s. */
@@ -197,12 +197,12 @@ export class Run {
     this.breakpoints.value = breakpoints;
   }
 
-  /** Steers the run now. Throws an EngineError that says what is wrong. */
+  /** Steers the run now. Throws an EngineError with the reason. */
   apply(intervention: Intervention): Promise<void> {
     return this.client.ask({ apply: intervention });
   }
 
-  /** The scenario with all that was applied, as the text of a file. */
+  /** The scenario with everything that was applied, as the text of a file. */
   scenario(): Promise<string> {
     return this.client.ask<string>({ scenario: true });
   }

@@ -10,7 +10,7 @@ import type { Path } from "./toml/layout.ts";
 export const path = computed(() => project.value.scenario);
 export const text = computed(() => (path.value === null ? "" : (project.value.files[path.value] ?? "")));
 
-/** Null while the text is no TOML. */
+/** Null while the text is not TOML. */
 export const content = computed<Table | null>(() => {
   try {
     return parse(text.value, { integersAsBigInt: "asNeeded" }) as Table;

@@ -7,7 +7,7 @@ export function encode(bytes: Uint8Array): string {
   return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** Throws if it is no such text. */
+/** Throws if it is not such a text. */
 export function decode(text: string): Uint8Array {
   if (!/^[A-Za-z0-9_-]*$/.test(text)) throw new Error("other characters than those of base64url");
   const bytes = atob(text.replaceAll("-", "+").replaceAll("_", "/"));

@@ -18,7 +18,7 @@ const AXIS = 16;
 const HEIGHT = TOP + LANES.length * LANE_HEIGHT + AXIS;
 /** A mark answers to a pointer this near, px. */
 const NEAR = 6;
-/** While the run goes on, marks are drawn this often, ms; the line of the moment shown moves with it. */
+/** While the run continues, marks are drawn this often, ms; the line of the moment shown moves with it. */
 const DRAW_EVERY = 250;
 
 export function Timeline() {

@@ -10,7 +10,7 @@ import { followed, measured, tool } from "./pick.ts";
 
 interface Props {
   fit: (whole: boolean) => void;
-  /** Whether there is nothing but the view from above. */
+  /** Whether there is only the view from above. */
   onlyFlat: boolean;
 }
 

@@ -1,4 +1,4 @@
-// All that a picture of the world is painted from, at the moment shown. Painters read it and change nothing.
+// Everything that a picture of the world is painted from, at the moment shown. Painters read it and change nothing.
 
 import type { Member, World } from "../engine/types.ts";
 import type { History } from "../run/history.ts";

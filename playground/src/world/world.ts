@@ -38,7 +38,7 @@ export class WorldScreen {
   #stops: (() => void)[] = [];
   #disposed = false;
 
-  /** `onFlat` is told when there is no WebGL, so that the world can be shown from above only. */
+  /** `onFlat` is called when there is no WebGL, so that the world can be shown from above only. */
   constructor(
     private readonly element: HTMLElement,
     private readonly onFlat: (isFlat: boolean) => void,
@@ -219,7 +219,7 @@ export class WorldScreen {
   }
 }
 
-/** How much larger robots are drawn than they are: so much that they can be seen, px. */
+/** How much larger robots are drawn than they are, so that they can be seen, px. */
 function enlargement({ count, fleet }: Scene, view: View): number {
   const seen = count <= 60 ? 17 : count <= 300 ? 11 : 6;
   const radius = fleet[0]?.radius ?? 0.15;

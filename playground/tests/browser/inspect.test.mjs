@@ -88,7 +88,7 @@ test("a violation leads to its moment and to what could have caused it", async (
   await page.getByText("reach_avoid.safety violated").first().waitFor();
   const finish = Number.parseFloat(await page.locator(".clock").textContent());
   await page.getByRole("listbox", { name: "Violations" }).getByRole("option").first().click();
-  await page.getByRole("heading", { name: "What could have led to it" }).waitFor();
+  await page.getByRole("heading", { name: "Possible causes" }).waitFor();
   assert.ok(Number.parseFloat(await page.locator(".clock").textContent()) < finish);
   assert.ok(
     (await page

@@ -88,7 +88,7 @@ test("a failure that a sweep finds is shrunk and shown at its violation", async 
   await page.getByRole("button", { name: "Shrink and open" }).click();
   await page.getByText(/Shrunk from 4 robots.* to 2 robots/).waitFor();
   assert.match(await page.locator("h1").textContent(), /Ordered\.in_order/);
-  await page.getByRole("heading", { name: "What could have led to it" }).waitFor();
+  await page.getByRole("heading", { name: "Possible causes" }).waitFor();
   await page.getByText("Ordered.in_order violated").first().waitFor();
   await page.getByRole("button", { name: "Add worlds/lossy-1-small.toml to the project" }).click();
   await page.getByRole("tab", { name: "Program", exact: true }).click();
@@ -108,7 +108,7 @@ test("a run of a sweep opens as it is, and a sweep that is stopped keeps what it
   assert.ok(Number.parseInt(progress, 10) > 0, progress);
   await page.getByRole("button", { name: "Open as it is" }).click();
   await page.getByText("The run is open in the viewer.").waitFor();
-  await page.getByRole("heading", { name: "What could have led to it" }).waitFor();
+  await page.getByRole("heading", { name: "Possible causes" }).waitFor();
   assert.deepEqual(faults(), []);
   await context.close();
 });

@@ -1,4 +1,4 @@
-// Messages are paired with where they arrive, as the run goes on and when it is cut.
+// Messages are paired with where they arrive, as the run continues and when it is cut.
 
 import { expect, test } from "vitest";
 import { Traffic } from "../../src/messages/traffic.ts";

@@ -10,7 +10,7 @@ use starl_lang::robot::Code;
 use starl_lang::robot::properties::Condition;
 use starl_sim::Simulation;
 
-/// The code of a program whose only property is that a condition comes true.
+/// The code of a program whose only property is that a condition becomes true.
 pub(super) fn code_with(compiled: &Compiled, condition: &str) -> Result<Code, Vec<Diagnostic>> {
     let bytecode = with_condition(&compiled.text, condition, compiled)?;
     Code::load(bytecode).map_err(|error| refusal(condition, &error.to_string()))
@@ -36,14 +36,15 @@ impl FleetCondition {
         condition: &str,
     ) -> Result<FleetCondition, Vec<Diagnostic>> {
         let code = code_with(compiled, condition)?;
-        let made = Condition::new(&code).ok_or_else(|| refusal(condition, "it is no condition"))?;
+        let made =
+            Condition::new(&code).ok_or_else(|| refusal(condition, "it is not a condition"))?;
         Ok(FleetCondition {
             program: path.to_string(),
             condition: made,
         })
     }
 
-    /// Whether it is true now: see [`Condition::ask`]. It makes no difference to the simulation.
+    /// Whether it is true now: see [`Condition::ask`]. It does not change the simulation.
     pub fn ask(&mut self, simulation: &Simulation) -> Vec<(Option<RobotId>, Result<bool, String>)> {
         let robots = members(&simulation.scenario().fleet, &self.program);
         let members = Members {

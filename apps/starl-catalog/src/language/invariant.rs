@@ -1,4 +1,4 @@
-//! Judges what a program says of every state, while its fleet is explored.
+//! Judges a program's invariants in every state of an exploration.
 
 use starl_core::event::Name;
 use starl_core::motion::Obstacles;

@@ -74,7 +74,7 @@ impl Programs {
     /// Makes the program of a group of robots; none if the group names no program of this language.
     ///
     /// # Errors
-    /// Where the program does not take the parameters as they are.
+    /// If the program does not take the parameters as they are.
     pub fn make(&self, group: &Group, fleet: &Fleet) -> Option<Result<RobotProgram, Complaint>> {
         let compiled = self.0.get(&group.program)?;
         Some(values::program(&compiled.code, group, fleet))
@@ -102,11 +102,11 @@ impl Programs {
             .collect()
     }
 
-    /// The condition over the robots of each program for which it has no errors.
+    /// The condition for the robots of each program for which it has no errors.
     ///
     /// # Errors
-    /// The errors for the first program, if there are errors for all; positions are bytes of the text. Nothing if
-    /// there is no program.
+    /// The errors for the first program, if there are errors for all; positions are bytes of the text. Empty if there
+    /// is no program.
     pub fn conditions(&self, condition: &str) -> Result<Vec<FleetCondition>, Vec<Diagnostic>> {
         self.each_that_can(|path, compiled| FleetCondition::new(path, compiled, condition))
     }

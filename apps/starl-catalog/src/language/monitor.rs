@@ -88,7 +88,7 @@ impl ProgramMonitor {
                     robots: Vec::from([robot]),
                     text: format!(
                         "robot {robot}: a check was false although no fault had overwritten variables; \
-                         the event `reset` tells which"
+                         the event `reset` names it"
                     ),
                 });
             }

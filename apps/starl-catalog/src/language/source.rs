@@ -84,8 +84,7 @@ impl Findings {
 /// scenario's inputs.
 ///
 /// # Errors
-/// Where a file cannot be read. Where the program has errors there is no code, and the findings tell
-/// of them.
+/// A file cannot be read. If the program has errors there is no code, and the findings contain them.
 pub fn compile(
     path: &str,
     resolved: &mut Resolved,
@@ -201,7 +200,11 @@ impl<'a> Folder<'a> {
     /// The text of the program.
     fn text(&self, path: &str) -> Result<String, String> {
         let bytes = self.loader.load(path);
-        let bytes = bytes.map_err(|reason| format!("{path:?} cannot be read: {reason}"))?;
+        let bytes = bytes.map_err(|reason| {
+            format!(
+                "{path:?} cannot be read: {reason}; its path is relative to the scenario's folder"
+            )
+        })?;
         self.keep(path, bytes)
     }
 

@@ -10,7 +10,7 @@ use starl_sim::scenario::{Fleet, Group, Parameter};
 /// The program of a group's robots, with the parameters that the scenario gives.
 ///
 /// # Errors
-/// Where they are not those that the program declares.
+/// If they are not those that the program declares.
 pub fn program(code: &Code, group: &Group, fleet: &Fleet) -> Result<RobotProgram, Complaint> {
     let bytecode = code.program().bytecode();
     let reader = Reader { bytecode, fleet };

@@ -1,6 +1,6 @@
-//! A robot that spreads out: it drives straight while nothing is near and turns away from what is
-//! (the diffusion controller of swarm robotics; Howard, Mataric and Sukhatme 2002 spread robots by the
-//! same sum of repulsions).
+//! A robot that spreads out: it drives straight while its surroundings are free and turns away from obstacles (the
+//! diffusion controller of swarm robotics; Howard, Mataric and Sukhatme 2002 spread robots by the same sum of
+//! repulsions).
 
 use starl_core::math::{self, radians};
 use starl_core::{Command, Primitives, Program, Robot};

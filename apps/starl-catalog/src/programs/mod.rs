@@ -73,8 +73,8 @@ impl Default for Registry {
 }
 
 impl Registry {
-    /// With one more program: its name in scenarios, what it does in one line, and how a robot's program is
-    /// made from the parameters of its group.
+    /// Adds a program: its name in scenarios, its summary in one line, and a function that makes a robot's program from
+    /// the parameters of its group.
     ///
     /// # Panics
     /// If the name is empty, is taken, or ends in `.starl`, which names files.
@@ -125,7 +125,7 @@ impl Registry {
     /// Makes the program of a group of robots.
     ///
     /// # Errors
-    /// Where there is no such program, or it does not take the parameters as they are.
+    /// There is no such program, or it does not accept the parameters.
     pub fn make(&self, group: &Group) -> Result<Box<dyn Program>, Complaint> {
         let Some(entry) = self.0.iter().find(|entry| entry.name == group.program) else {
             let names: Vec<&str> = self.0.iter().map(|entry| &*entry.name).collect();

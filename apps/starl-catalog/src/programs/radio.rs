@@ -1,5 +1,4 @@
-//! A robot that drives in circles, broadcasts four bytes at every activation and reads all that it
-//! hears.
+//! A robot that drives in circles, broadcasts four bytes at every activation and reads all messages that it receives.
 
 use starl_core::{Command, Destination, Message, Payload, Port, Primitives, Program, Robot};
 

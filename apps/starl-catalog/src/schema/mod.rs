@@ -97,7 +97,7 @@ fn field(field: &Field) -> Object {
     schema
 }
 
-/// A default as the file would hold it; none if it is told in words.
+/// A default as the file would hold it; none if it is described in words.
 fn default(kind: &Kind, text: &str) -> Option<Value> {
     match kind {
         Kind::Text | Kind::Choice(_) | Kind::Model => Some(json!(text)),

@@ -62,12 +62,12 @@ impl Service {
         Files::from(contents).with_disk(self.disk)
     }
 
-    /// A flag that stops what is under way: while it is set, no simulation runs on. Any thread may set it.
+    /// A flag that stops the current work: while it is set, no simulation advances. Any thread may set it.
     pub fn interrupt(&self) -> Arc<AtomicBool> {
         self.interrupt.clone()
     }
 
-    /// Takes in a simulation that was opened elsewhere. Returns what the request `open` answers.
+    /// Adds a simulation that was opened elsewhere. Returns the answer of the request `open`.
     pub fn adopt(&mut self, mut session: Session) -> Value {
         session.set_interrupt(self.interrupt.clone());
         let number = self.next;
@@ -97,8 +97,8 @@ impl Service {
         }
     }
 
-    /// Puts the poses of a simulation's robots in the place of `numbers`, see [`Session::poses`]. False if there is no
-    /// such simulation.
+    /// Replaces `numbers` by the poses of a simulation's robots, see [`Session::poses`]. False if there is no such
+    /// simulation.
     pub fn poses(&self, simulation: u32, numbers: &mut Vec<f64>) -> bool {
         numbers.clear();
         let session = self.sessions.get(&simulation);
@@ -107,8 +107,8 @@ impl Service {
             .is_some()
     }
 
-    /// Puts the frames of a simulation that were not taken yet in the place of `numbers`, see
-    /// [`Session::take_frames`]. False if there is no such simulation.
+    /// Replaces `numbers` by the frames of a simulation that were not taken yet, see [`Session::take_frames`]. False if
+    /// there is no such simulation.
     pub fn frames(&mut self, simulation: u32, numbers: &mut Vec<f64>) -> bool {
         let session = self.sessions.get_mut(&simulation);
         session

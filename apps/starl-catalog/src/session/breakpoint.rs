@@ -1,7 +1,7 @@
 //! Breakpoints: conditions at which a run stops for inspection.
 //!
-//! They belong to the session, not to the run: they make no difference to what happens, and stay when the session goes
-//! back to a moment that was kept.
+//! They belong to the session, not to the run: they do not change the run, and stay when the session returns to a
+//! snapshot.
 
 mod names;
 
@@ -108,7 +108,7 @@ impl Breakpoints {
         self.all.is_empty()
     }
 
-    /// Takes in that the run is at another moment.
+    /// Restarts the evaluation at another moment of the run.
     pub fn look_anew(&mut self, run: &Run) {
         for (_, watched) in &mut self.conditions {
             watched.met.clear();

@@ -1,4 +1,4 @@
-//! All that is wrong with files that are held in memory, programs and scenarios alike.
+//! All problems of files in memory, programs and scenarios.
 
 use super::files::{Beside, Files};
 use crate::Refusal;
@@ -148,7 +148,7 @@ impl Diagnostic {
                     message: label.message.clone(),
                 }
             });
-            let edits = diagnostic.mend.iter().flat_map(|mend| &mend.edits);
+            let edits = diagnostic.fix.iter().flat_map(|fix| &fix.edits);
             let edits = edits.map(|edit| {
                 let (start, end) = place(edit.span);
                 Edit {
@@ -170,7 +170,7 @@ impl Diagnostic {
                     Severity::Warning => "warning",
                 },
                 code: Some(diagnostic.code.number()),
-                help: diagnostic.mend.as_ref().map(|mend| mend.message.clone()),
+                help: diagnostic.fix.as_ref().map(|fix| fix.message.clone()),
                 notes: diagnostic.remarks().collect(),
                 related: related.collect(),
                 edits: edits.collect(),
@@ -200,7 +200,7 @@ impl Diagnostic {
         Diagnostic::of_findings(&path, &findings.source, &findings.diagnostics).collect()
     }
 
-    /// All that is wrong with a scenario and its programs.
+    /// All problems of a scenario and its programs.
     pub(super) fn of_refusal(refusal: Refusal, beside: &Beside<'_>) -> Vec<Diagnostic> {
         let found = refusal.findings.iter();
         let mut all: Vec<Diagnostic> = found

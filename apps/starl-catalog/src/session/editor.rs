@@ -33,7 +33,7 @@ pub struct Completion {
     pub documentation: Option<String>,
     /// The text that replaces the range.
     pub insert: String,
-    /// Where the cursor belongs in that: so many UTF-16 units stand before it.
+    /// The cursor's position in the text, in UTF-16 units.
     pub cursor: usize,
     /// The range that it replaces: the word being typed.
     pub range: Utf16Range,
@@ -46,7 +46,7 @@ pub struct Definition {
     pub path: String,
     /// Its name there.
     pub range: Utf16Range,
-    /// The text of the file, if it is none of the files but part of the language.
+    /// The text of the file, if it is part of the language and not one of the files.
     pub text: Option<String>,
 }
 
@@ -79,7 +79,7 @@ impl<'a> Document<'a> {
     /// The program or library at `path`.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If there is none.
     pub fn open(files: &'a Files, path: &'a str) -> Result<Document<'a>, String> {
         if !path.ends_with(SUFFIX) {
             return Err(format!(
@@ -124,7 +124,7 @@ impl<'a> Document<'a> {
         items.collect()
     }
 
-    /// Where that is declared which is named at a place; none for what is built in.
+    /// The declaration of the name at a position; none for a built-in name.
     pub fn definition(&self, at: Utf16Position) -> Option<Definition> {
         let analysis = self.analysis();
         let found = analysis.occurrence(self.offset(at))?;
@@ -182,7 +182,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// The text of a program or library as the formatter lays it out.
+/// The text of a program or library as the formatter formats it.
 pub fn formatted(text: &str) -> String {
     format(text)
 }

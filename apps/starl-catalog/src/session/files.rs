@@ -71,7 +71,7 @@ impl Files {
     /// The text of a file.
     ///
     /// # Errors
-    /// Where there is no such file, or it is not text in UTF-8.
+    /// If there is no such file, or it is not text in UTF-8.
     pub fn text(&self, path: &str) -> Result<&str, String> {
         let bytes = self.held.get(&resolve("", path));
         let bytes = bytes.ok_or_else(|| "there is no such file".to_string())?;

@@ -1,4 +1,4 @@
-//! All there is to see of one robot at the present moment, as plain data.
+//! The state of one robot at the present moment, as plain data.
 
 use serde::Serialize;
 use starl_core::{Command, Estimate, Port, Pose, RobotId, TimerKey, Twist};
@@ -16,11 +16,11 @@ pub struct RobotReport {
     pub model: &'static str,
     /// The program that it runs, as the scenario names it.
     pub program: String,
-    /// `running`, `finished`, `failed` (its program cannot go on), `down` (it has crashed) or `left`.
+    /// `running`, `finished`, `failed` (its program cannot continue), `down` (it has crashed) or `left`.
     pub condition: &'static str,
     /// Whether its software has started in its present life.
     pub started: bool,
-    /// Why its program cannot go on.
+    /// Why its program cannot continue.
     pub failure: Option<String>,
     /// Its motors act as if told to stop.
     pub motors_stuck: bool,
@@ -36,7 +36,7 @@ pub struct RobotReport {
     pub command: Command,
     /// The name of the thing in its gripper.
     pub holding: Option<String>,
-    /// How far it has come along its path.
+    /// The distance that it has travelled.
     pub distance: f64,
     /// How many waypoints its ReachAvoid has reached.
     pub way_points_reached: u32,
@@ -54,8 +54,8 @@ pub struct RobotReport {
     pub actions: Vec<ActionReport>,
     /// The primitives of a program in the StarL language, in the order of the text.
     pub primitives: Vec<PrimitiveReport>,
-    /// All that a program in Rust goes by, as its `Debug` shows it; none if it does not show it, or if it is a
-    /// program in the StarL language.
+    /// The state of a program in Rust, as its `Debug` shows it; none if it does not, or for a program in the StarL
+    /// language.
     pub state: Option<String>,
 }
 
@@ -140,8 +140,8 @@ pub struct PrimitiveReport {
 }
 
 impl RobotReport {
-    /// A robot of a run as it is now; none if there is no such robot. Takes time in proportion to all datagrams
-    /// under way, and evaluates every guard once.
+    /// A robot of a run as it is now; none if there is no such robot. The time is proportional to all datagrams in
+    /// transit, and every guard is evaluated once.
     pub fn of(run: &Run, robot: RobotId) -> Option<RobotReport> {
         let simulation = run.simulation();
         let fleet = &simulation.scenario().fleet;

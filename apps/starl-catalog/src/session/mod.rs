@@ -42,10 +42,10 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// So many records are kept at first until they are taken; then the oldest are dropped.
+/// The default limit of records that are kept until they are taken; beyond it the oldest are dropped.
 pub const MOST_RECORDS: usize = 200_000;
 
-/// A simulation with the moments of it that are kept. A copy goes on exactly as the original would.
+/// A simulation with its snapshots. A copy continues exactly as the original would.
 #[derive(Clone)]
 pub struct Session {
     application: Application,
@@ -60,7 +60,7 @@ pub struct Session {
     interrupt: Arc<AtomicBool>,
 }
 
-/// All that changes as time goes on. A copy goes on exactly as the original would.
+/// Everything that changes as time continues. A copy continues exactly as the original would.
 #[derive(Clone)]
 struct Live {
     run: Run,
@@ -90,9 +90,9 @@ impl Default for Budget {
 /// Records that were taken.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
-    /// All that happened, in order.
+    /// All records, in order.
     pub records: Vec<Record>,
-    /// How many more there are to be taken.
+    /// The number of records left to take.
     pub left: usize,
     /// The number of records dropped since the last call, because they were not taken in time.
     pub dropped: u64,
@@ -102,7 +102,7 @@ impl Session {
     /// Opens the scenario that the options name. Programs in Rust are those of the registry.
     ///
     /// # Errors
-    /// All that is wrong with the options, the scenario and its programs.
+    /// All problems of the options, the scenario and its programs.
     pub fn open(files: &Files, options: &Options, registry: &Registry) -> Result<Session, Refused> {
         let opened = open(files, options, registry)?;
         Session::of(opened.application, opened.global_names, opened.warnings)
@@ -182,7 +182,7 @@ impl Session {
         Ok(())
     }
 
-    /// Keeps up to so many records that were not taken.
+    /// Sets the limit of records that are kept until they are taken.
     pub fn set_most_records(&mut self, most: usize) {
         self.most_records = most;
     }
@@ -222,9 +222,9 @@ impl Session {
         }
     }
 
-    /// Makes physics steps until the run is over, the budget is spent, a breakpoint is met, or it is interrupted. With a
-    /// period to `sample` by, which must not be zero, it keeps a frame after each step that reaches or passes a multiple
-    /// of the period, see [`Session::take_frames`].
+    /// Makes physics steps until the run is over, the budget is spent, a breakpoint is met, or it is interrupted. With
+    /// a period to `sample` by, which must not be zero, it keeps a frame after each step that reaches or passes a
+    /// multiple of the period, see [`Session::take_frames`].
     pub fn advance(&mut self, budget: Budget, sample: Option<Duration>) -> Status {
         let mut steps = 0;
         let live = &mut self.live;
@@ -274,11 +274,11 @@ impl Session {
         number
     }
 
-    /// Goes back, or forth, to a moment that was kept. It stays kept. Breakpoints stay as they are; a condition that is
-    /// true at that moment has to become false before it is met.
+    /// Returns to a snapshot, earlier or later, which is kept. Breakpoints do not change; a condition that is true at
+    /// that moment must become false before it can stop the run.
     ///
     /// # Errors
-    /// Where there is no such moment.
+    /// If there is no such moment.
     pub fn restore(&mut self, number: u32) -> Result<Status, String> {
         let kept = self.kept.get(&number);
         self.live = kept.ok_or_else(|| unknown(number))?.clone();
@@ -286,10 +286,10 @@ impl Session {
         Ok(self.status())
     }
 
-    /// Forgets a moment that was kept.
+    /// Deletes a snapshot.
     ///
     /// # Errors
-    /// Where there is no such moment.
+    /// If there is no such moment.
     pub fn forget(&mut self, number: u32) -> Result<(), String> {
         let kept = self.kept.remove(&number);
         kept.map(|_| ()).ok_or_else(|| unknown(number))
@@ -306,9 +306,8 @@ impl Session {
         }
     }
 
-    /// The scenario with all that was applied, as the text of a file: run from the start, it goes as this run
-    /// went. Programs of an example get the names that they have everywhere; other programs keep their paths
-    /// from the scenario's folder.
+    /// The scenario with all interventions, as the text of a file: it repeats this run from the start. Programs of an
+    /// example get their global names; other programs keep their paths from the scenario's folder.
     pub fn scenario(&self) -> String {
         let mut scenario = self.live.run.simulation().as_scenario();
         for group in &mut scenario.fleet.groups {
@@ -341,8 +340,8 @@ impl Session {
         poses::poses(&self.live.run)
     }
 
-    /// Takes all frames that were sampled, the oldest first: each its time in seconds, the number of robots, and what
-    /// [`Session::poses`] gave then. No more than [`MOST_FRAME_NUMBERS`] numbers are kept; then the oldest frames are
+    /// Takes all sampled frames, the oldest first: each has its time in seconds, the number of robots, and the result
+    /// of [`Session::poses`] then. No more than [`MOST_FRAME_NUMBERS`] numbers are kept; then the oldest frames are
     /// dropped.
     pub fn take_frames(&mut self) -> Vec<f64> {
         self.live.frames.take()
@@ -350,8 +349,8 @@ impl Session {
 }
 
 impl Live {
-    /// Makes a step, of whose records it keeps those of some topics, and no more than so many; gives the breakpoint that
-    /// was met in it.
+    /// Makes a step, of whose records it keeps those of some topics, and no more than so many; gives the breakpoint
+    /// that was met in it.
     fn step(
         &mut self,
         (topics, most): (Option<&BTreeSet<Topic>>, usize),

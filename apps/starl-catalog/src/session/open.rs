@@ -1,4 +1,5 @@
-//! From files in memory to a scenario with its programs: which scenario, which program, and what is changed.
+//! Opens a scenario with its programs from files in memory: chooses the scenario and the program, and applies the
+//! changes.
 
 use super::diagnostic::{Diagnostic, SCENARIO_SUFFIX};
 use super::files::{Beside, Files};
@@ -18,8 +19,8 @@ pub struct Options {
     /// The path of a scenario among the files, or an example's name. By default the only scenario among the
     /// files; if there is none, an empty floor with a few robots.
     pub scenario: Option<String>,
-    /// The path of a program, or the name of one in Rust, that takes the place of the scenario's. If there is
-    /// no scenario, by default the only program among the files.
+    /// The path of a program, or the name of one in Rust, that replaces the scenario's. If there is no scenario, by
+    /// default the only program among the files.
     pub program: Option<String>,
     /// Another seed, a whole number as text.
     pub seed: Option<String>,
@@ -36,7 +37,7 @@ pub struct Options {
 /// Why files cannot be opened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Refused {
-    /// All of it as one text.
+    /// The whole as one text.
     pub message: String,
     /// The single problems, warnings included; none where files or options are not as they should be.
     pub diagnostics: Vec<Diagnostic>,
@@ -201,7 +202,7 @@ fn only_program(files: &Files) -> Result<String, String> {
 
 /// Whether some group of the scenario names this program already.
 fn names(source: &Source, beside: &Beside<'_>, key: &str) -> bool {
-    // The problems of the scenario are told when it is read for good.
+    // The problems of the scenario are reported when it is opened.
     let read = starl_sim::read::scenario(&Request::new(source.clone()), beside);
     read.is_ok_and(|read| {
         let mut groups = read.scenario.fleet.groups.iter();

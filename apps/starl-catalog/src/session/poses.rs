@@ -9,7 +9,7 @@ use std::mem;
 /// How many numbers there are for each robot.
 pub const POSE_NUMBERS: usize = 11;
 
-/// So many numbers of frames are kept until they are taken; then the oldest frames are dropped.
+/// The limit of numbers in frames that are kept until they are taken; beyond it the oldest frames are dropped.
 pub const MOST_FRAME_NUMBERS: usize = 20_000_000;
 
 /// The numbers of a frame before those of its robots: its time and how many robots there are.

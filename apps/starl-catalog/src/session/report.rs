@@ -13,7 +13,7 @@ use starl_sim::{Run, Simulation};
 pub struct Status {
     /// The present time, seconds.
     pub now: f64,
-    /// Whether the run has come to its end. It can be stepped further all the same.
+    /// Whether the run has ended. It can still be stepped further.
     pub over: bool,
     /// `reached`, `violated`, `timed_out` or `failed`; none before the end.
     pub outcome: Option<&'static str>,
@@ -32,19 +32,19 @@ pub struct Report {
     pub over: bool,
     /// See [`Status::outcome`].
     pub outcome: Option<&'static str>,
-    /// The hash of all that has happened, hexadecimal.
+    /// The hash of all events, hexadecimal.
     pub digest: String,
     /// How many robots are where.
     pub progress: Progress,
     /// The fate of datagrams.
     pub messages: Messages,
-    /// How often bodies have come to touch.
+    /// The number of contacts of bodies.
     pub collisions: u64,
     /// Each property that is watched.
     pub properties: Vec<Property>,
     /// Every violation so far.
     pub violations: Vec<Violation>,
-    /// Every program so far that could not go on.
+    /// Every program so far that could not continue.
     pub failures: Vec<Failure>,
 }
 
@@ -57,7 +57,7 @@ pub struct Progress {
     pub up: usize,
     /// Of these, robots whose programs have reached their goals.
     pub finished: usize,
-    /// Of these, robots whose programs cannot go on.
+    /// Of these, robots whose programs have failed.
     pub failed: usize,
 }
 
@@ -81,8 +81,8 @@ pub struct Messages {
 pub struct Property {
     /// Its name.
     pub property: String,
-    /// `holds`, `violated`, `open` (it demands something by a time that has not come) or `unused` (nothing has
-    /// happened yet that it speaks of).
+    /// `holds`, `violated`, `open` (its deadline has not passed) or `unused` (there was no event yet to which it
+    /// applies).
     pub verdict: &'static str,
     /// How often it was violated.
     pub violations: usize,
@@ -90,7 +90,7 @@ pub struct Property {
     pub excused: Vec<Excused>,
 }
 
-/// How often something that speaks against a property was excused for one reason.
+/// The number of excused violations of a property, for one reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Excused {
     /// The reason.
@@ -112,7 +112,7 @@ pub struct Violation {
     pub text: String,
 }
 
-/// A program that could not go on.
+/// A program that could not continue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Failure {
     /// Since when, seconds.
@@ -257,7 +257,7 @@ impl Violation {
 }
 
 impl Failure {
-    /// Every program so far that could not go on.
+    /// Every program so far that could not continue.
     pub fn all(run: &Run) -> Vec<Failure> {
         let failures = run.failures().iter();
         let told = failures.map(|failure| Failure {
@@ -311,9 +311,9 @@ pub fn fleet(run: &Run) -> Vec<Member> {
     members.collect()
 }
 
-/// Where the program of each robot is, in the order of their numbers: the value of the first variable of an enum of a
-/// program in the StarL language, or its role; none where there is no such variable, for programs in Rust, and before
-/// the program has started.
+/// The stage of each robot's program, in the order of their numbers: for a program in the StarL language the value of
+/// its first enum variable, or its role. None without such a variable, for programs in Rust, and before the program has
+/// started.
 pub fn states(run: &Run) -> Vec<Option<&str>> {
     let simulation = run.simulation();
     let stage = |&robot: &RobotId| {

@@ -1,7 +1,6 @@
-//! Trials: runs of an application under profiles of faults, and what is left of a failure when it is shrunk.
+//! Trials: runs of an application under profiles of faults, and shrunk failures.
 //!
-//! Invariant: the same application, profile and seed give the same run wherever it is tried, in `starl test` and in a
-//! page.
+//! Invariant: the same application, profile and seed give the same run everywhere, in `starl test` and in a page.
 
 mod service;
 mod shrinking;
@@ -23,7 +22,7 @@ use starl_sim::{Outcome, Run, Scenario, Trial};
 pub struct Subject {
     /// Its scenario and programs.
     pub application: Application,
-    /// Whether its goal is to be reached whatever the profile.
+    /// Whether its goal must be reached under every profile.
     pub demands_goal: bool,
     /// Faults set in within this time: twice what the application takes without them, or as long as it lasts if it has
     /// no other end.

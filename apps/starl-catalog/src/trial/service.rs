@@ -84,10 +84,10 @@ fn chosen(profile: &str, seed: &str) -> Result<(Profile, u64), String> {
 }
 
 impl Trials {
-    /// Runs files with the faults of a profile, until the run ends or something goes wrong.
+    /// Runs files with the faults of a profile, until the run ends or fails.
     ///
     /// # Errors
-    /// All that is wrong with the files, and with the names of profile and seed.
+    /// All problems of the files, and of the profile's name and the seed.
     pub fn try_out(
         &mut self,
         (files, options): (Files, Options),

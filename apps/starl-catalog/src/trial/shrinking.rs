@@ -13,7 +13,8 @@ use starl_sim::read::{Loader, Request, Source};
 use starl_sim::shrink::{Limits, shrink};
 use starl_sim::{Cause, Finding, History, Run, Scenario, Trial, write};
 
-/// A search for the smallest scenario that fails as a run did. It can be made in pieces: what was tried is remembered.
+/// A search for the smallest scenario that fails as a run did. It can be made in pieces: the results of trials are
+/// kept.
 pub struct Shrinking {
     original: Scenario,
     finding: Finding,
@@ -25,8 +26,8 @@ pub struct Shrinking {
     cause: Option<Cause>,
 }
 
-/// When each scenario failed that a search tried so far, in order. The search depends on nothing else, so it can be made in
-/// one process and its result taken in another.
+/// When each scenario failed that a search tried so far, in order. The search depends on nothing else, so it can be
+/// made in one process and its result taken in another.
 pub type Answers = Vec<Option<Time>>;
 
 /// A scenario that fails, as small as it was found.
@@ -121,7 +122,7 @@ impl Shrinking {
         Shrinking { answers, ..self }
     }
 
-    /// The answers of all that was tried so far.
+    /// The results of all trials so far.
     pub fn into_answers(self) -> Answers {
         self.answers
     }
@@ -131,10 +132,10 @@ impl Shrinking {
         Size::of(&self.original)
     }
 
-    /// Tries `most` scenarios in all, at least one; those that were tried by earlier calls are not run again. `loader` is
-    /// for the files that they name; `watch` sees each before it runs, and ends the search by returning false.
+    /// Tries `most` scenarios in all, at least one; those that were tried by earlier calls are not run again. `loader`
+    /// is for the files that they name; `watch` sees each before it runs, and ends the search by returning false.
     ///
-    /// Gives none if the scenario does not fail when it is read from a file of its own.
+    /// Returns `None` if the scenario does not fail when it is read from a file of its own.
     pub fn search(
         &mut self,
         most: u64,

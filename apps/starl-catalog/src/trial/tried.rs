@@ -20,22 +20,22 @@ pub struct Tried {
     pub text: String,
     /// When the run ended, seconds.
     pub now: f64,
-    /// The hash of all that has happened, hexadecimal.
+    /// The hash of all events, hexadecimal.
     pub digest: String,
     /// How many robots were where at the end.
     pub progress: Progress,
     /// The fate of datagrams.
     pub messages: Messages,
-    /// How often bodies have come to touch.
+    /// The number of contacts of bodies.
     pub collisions: u64,
     /// Every violation, those of the last step.
     pub violations: Vec<Violation>,
-    /// Every program that could not go on.
+    /// Every program that could not continue.
     pub failures: Vec<Failure>,
 }
 
 impl Tried {
-    /// Tells of a trial. `run` is the run that it has ended.
+    /// The report of a trial that has ended `run`.
     pub fn of((profile, seed): (Profile, u64), run: &Run, trial: &Trial) -> Tried {
         let simulation = run.simulation();
         Tried {

@@ -1,5 +1,5 @@
-//! The examples come to do what they are for though a fault overwrites all variables and primitives of all robots
-//! at random while they are at it, and what they state of themselves holds, with the time to recover that it allows.
+//! The examples reach their goals although a fault overwrites all variables and primitives of all robots at random
+//! during the run, and their properties hold after the time to recover.
 
 use crate::support::Case;
 use rayon::prelude::*;

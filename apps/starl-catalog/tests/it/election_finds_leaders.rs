@@ -1,5 +1,5 @@
-//! The robots of the example `election` see one leader after the other, whatever the algorithm, in calm and over
-//! a bad network, and no property is violated.
+//! The robots of the example `election` see one leader after the other, with every algorithm, without faults and over a
+//! bad network, and no property is violated.
 
 use crate::support::Case;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! The robots of Flocking line up, whatever they are, as its README has them.
+//! The robots of Flocking, of every model, line up as in its README.
 
 use crate::support::Case;
 use starl_sim::Outcome;

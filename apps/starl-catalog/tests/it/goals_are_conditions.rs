@@ -44,7 +44,7 @@ fn end(goal: &str, crash: &str) -> (Outcome, Time) {
 }
 
 #[test]
-fn a_run_ends_when_its_condition_comes_true() {
+fn a_run_ends_when_its_condition_becomes_true() {
     for goal in [
         "forall r: r.count == 5",
         "exists r: r.count >= 5",
@@ -57,7 +57,7 @@ fn a_run_ends_when_its_condition_comes_true() {
 }
 
 #[test]
-fn a_condition_that_does_not_come_true_times_out() {
+fn a_condition_that_stays_false_times_out() {
     for goal in [
         "forall r: r.count == 50",
         "exists r: r.count < 0",

@@ -64,7 +64,7 @@ fn over_a_bad_network() {
 }
 
 #[test]
-fn the_network_parted_and_whole_again() {
+fn a_partition_that_heals() {
     with_seeds(&PARTED, all_pass);
 }
 

@@ -59,7 +59,7 @@ fn measure() {
                 mean(&|run| run.delays().0),
                 mean(&|run| run.through.len() as f64),
             );
-            // Cars may wait for longer than they should, and that is told; they never collide.
+            // Cars may wait for longer than they should, and that is reported; they never collide.
             for safety in ["Intersection.traffic_safety", "no_collision"] {
                 assert!(!violated.contains(&safety.to_string()), "{rate} {control}");
             }

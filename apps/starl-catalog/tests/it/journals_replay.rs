@@ -1,4 +1,4 @@
-//! Every robot of every example can be run again from its journal alone, whatever goes wrong in the run.
+//! Every robot of every example can be replayed from its journal alone, with every kind of fault in the run.
 
 use rayon::prelude::*;
 use starl_catalog::Application;

@@ -1,5 +1,5 @@
-//! The robots of Line end evenly spaced on a line and stay there, from any start and over a bad network.
-//! Where one dies the others close the gap, or stand as near to their places as it leaves room.
+//! The robots of Line end evenly spaced on a line and stay there, from any start and over a bad network. If one
+//! crashes, the others close the gap, or stand as near to their places as it allows.
 
 use crate::support::Case;
 use rayon::prelude::*;
@@ -38,7 +38,7 @@ fn ten() {
 }
 
 #[test]
-fn those_that_are_left_close_the_gap_of_one_that_died() {
+fn the_others_close_the_gap_of_a_crashed_robot() {
     let crash = "[[fault]]\nat = \"100ms\"\nkind = \"crash\"\nrobots = [\"iRobot1\"]\n";
     let mut at = [Point::ZERO; 7];
     let mut run = Case {
@@ -62,8 +62,8 @@ fn those_that_are_left_close_the_gap_of_one_that_died() {
 }
 
 /// The wreck lies 30 cm from where the robot before it is to stand then. One that kept trying to get there would go to
-/// and fro beside it, and its neighbours with it: 6 m in a run. Where the drone comes down makes a difference of metres, so
-/// the mean of some runs is judged.
+/// and fro beside it, and its neighbours with it: 6 m in a run. Where the drone comes down makes a difference of
+/// metres, so the mean of some runs is judged.
 #[test]
 fn a_robot_with_a_wreck_in_its_place_hardly_moves() {
     let crash = "[[fault]]\nat = \"60s\"\nkind = \"crash\"\nrobots = [\"quadcopter0\"]\n";

@@ -82,7 +82,7 @@ fn through_crashes_and_partitions() {
 /// A robot that crashes restarts its turns, so a fleet need not finish in the end. But while nothing fails
 /// some robot enters regularly, as soon as those that restarted have asked all others for their grants.
 #[test]
-fn a_quorum_goes_on_after_crashes_and_partitions() {
+fn a_quorum_continues_after_crashes_and_partitions() {
     (20..28).into_par_iter().for_each(|seed| {
         let mut run = start(&trouble(), "quorum", seed);
         let (mut last, mut longest) = (Time::ZERO, Duration::ZERO);
@@ -120,8 +120,8 @@ fn nothing_is_held_twice_a_while_after_a_corruption_of_state() {
     }
 }
 
-/// Two robots tried other quorums while the network was parted, and what they gave back was not heard: of their old
-/// requests one was granted and the other waited for it.
+/// Two robots tried other quorums while the network was partitioned, and what they gave back was not heard: of their
+/// old requests one was granted and the other waited for it.
 #[test]
 fn requests_with_lost_releases_block_no_robot() {
     let faults = "
@@ -147,7 +147,7 @@ fn requests_with_lost_releases_block_no_robot() {
 /// Two of five robots die while all request something all the time, and stay dead. Their resources are free after
 /// their leases.
 #[test]
-fn leases_go_on_though_a_minority_stays_dead() {
+fn leases_continue_while_a_minority_stays_down() {
     let sets = [
         "parameters.algorithm=lease",
         "parameters.entries=60",

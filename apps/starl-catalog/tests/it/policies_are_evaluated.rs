@@ -65,7 +65,7 @@ fn first(mut run: Run) -> Vec<f64> {
 }
 
 #[test]
-fn a_program_gets_what_the_network_gives() {
+fn a_program_gets_the_output_of_the_network() {
     let program = asks(&format!("[{INPUT}]"));
     let read = application(SCENARIO, &files(&program, DENSE)).unwrap_or_else(|why| panic!("{why}"));
     for (found, expected) in first(read.run().unwrap()).iter().zip(OUTPUT) {
@@ -117,7 +117,7 @@ fn front_ends_that_hold_files_in_memory_run_it_too() {
 }
 
 #[test]
-fn what_keeps_a_policy_from_running_is_said_with_its_file_and_place() {
+fn problems_of_a_policy_are_reported_with_file_and_position() {
     let right = asks(&format!("[{INPUT}]"));
     let missing = Memory::of(&[("lab/asks.starl", right.as_bytes())]);
     let named = right.replace("(\"models", "(\"nets");
@@ -162,7 +162,7 @@ fn what_keeps_a_policy_from_running_is_said_with_its_file_and_place() {
 }
 
 #[test]
-fn numbers_whose_count_is_known_late_are_counted_when_they_come() {
+fn lists_of_unknown_length_are_counted_at_run_time() {
     let program = asks("[position.x for n in 0..3]");
     let read = application(SCENARIO, &files(&program, DENSE)).unwrap();
     let run = finished(read.run().unwrap());

@@ -84,7 +84,7 @@ fn each_type_is_written_in_its_way() {
 }
 
 #[test]
-fn what_is_left_out_has_its_default() {
+fn omitted_parameters_have_their_defaults() {
     let application = read(LEAST).unwrap_or_else(|refusal| panic!("{refusal}"));
     let run = application.run().unwrap();
     let program = run
@@ -100,7 +100,7 @@ fn what_is_left_out_has_its_default() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused_with_its_place() {
+fn invalid_values_are_rejected_with_their_position() {
     let cases = [
         (
             "count = 1.5",
@@ -161,7 +161,7 @@ fn what_does_not_fit_is_refused_with_its_place() {
 }
 
 #[test]
-fn what_must_be_given_is_asked_for() {
+fn missing_required_parameters_are_reported() {
     let refusal = read("flag = true\nstart = \"0s\"")
         .expect_err("there is no leader")
         .to_string();

@@ -158,6 +158,6 @@ fn a_command_ends_a_trip() {
     let files = Memory::of(&[("back.starl", TURNS_BACK.as_bytes())]);
     let run = run("holonomic", 0.0, "program = \"back.starl\"", files);
     let x = pose(&run).position.x;
-    // The command holds when its action no longer fires; a trip would go on to the east.
+    // The command holds when its action no longer fires; a trip would continue to the east.
     assert!(x < -0.3, "it is at {x} m");
 }

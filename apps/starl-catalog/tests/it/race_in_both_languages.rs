@@ -1,5 +1,5 @@
-//! Race in the StarL language and Race in Rust are the same program: in every run the same actions fire,
-//! the same events are told, the same robots finish and all drive the same ways, at the same times.
+//! Race in the StarL language and Race in Rust are the same program: in every run the same actions fire, the same
+//! events are recorded, the same robots finish and all drive the same paths, at the same times.
 
 use crate::support::Case;
 use rayon::prelude::*;

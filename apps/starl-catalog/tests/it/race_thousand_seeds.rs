@@ -1,6 +1,6 @@
-//! Race reaches its goal and violates no property, whatever the seed: calm and over a bad network, with
-//! its own fleet and with one of twelve, in the StarL language and in Rust. A hundred seeds are tried, and
-//! a thousand by `make nightly`.
+//! Race reaches its goal and violates no property with any seed: without faults and over a bad network, with its own
+//! fleet and with one of twelve, in the StarL language and in Rust. A hundred seeds are tried, and a thousand by `make
+//! nightly`.
 
 use crate::support::Case;
 use rayon::prelude::*;

@@ -1,5 +1,5 @@
-//! No two robots search one room, but while the network is parted; none is searched again because the robot that
-//! searched it starts again; and robots go to their rooms by short ways.
+//! No two robots search one room, except during a partition; no room is searched again because its robot restarts; and
+//! robots take short paths to their rooms.
 
 use crate::support::Case;
 use rayon::prelude::*;
@@ -113,7 +113,7 @@ fn after_a_partition_no_two_search_one_room() {
 }
 
 #[test]
-fn what_a_robot_searched_before_a_crash_is_not_searched_again() {
+fn rooms_searched_before_a_crash_are_not_searched_again() {
     (1..=4).into_par_iter().for_each(|seed| {
         let case = Case::new("search", BLIND, seed);
         let calm = Story::of(case);

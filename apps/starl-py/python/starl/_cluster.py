@@ -2,7 +2,7 @@
 
 A job is a line of JSON on standard input, an answer a line of JSON on standard output. After `{"ready": ...}` and for each
 job, there is a `{"result": ...}` for each number in any order and then `{"done": {}}`. The process ends when its input does,
-also in the middle of a job. `{"error": message}` is the last line of one that cannot go on.
+also in the middle of a job. `{"error": message}` is the last line of one that cannot continue.
 """
 
 from __future__ import annotations

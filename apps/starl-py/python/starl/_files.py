@@ -15,7 +15,7 @@ from starl._native import Engine
 from starl._requests import request
 from starl._robots import RobotProgram
 
-#: Answers what belongs to no simulation.
+#: Answers requests without a simulation.
 _SHARED = Engine()
 
 

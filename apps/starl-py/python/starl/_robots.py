@@ -89,7 +89,7 @@ class RobotHandle:
         self._native.finish()
 
     def fail(self, reason: str) -> None:
-        """The program cannot go on."""
+        """The program cannot continue."""
         self._native.fail(reason)
 
     def action(self, name: str) -> None:
@@ -124,7 +124,7 @@ class RobotProgram:
     process to process. Then the run repeats exactly.
     """
 
-    #: The names of attributes that outlast a crash on robots with storage (docs/reference/scenario.md#storage). They hold
+    #: The names of attributes that survive a crash on robots with storage (docs/reference/scenario.md#storage). They hold
     #: values that JSON can write, are written after each call that changes them, and have their stored values when `start`
     #: is called again.
     stable: ClassVar[tuple[str, ...]] = ()

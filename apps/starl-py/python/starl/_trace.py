@@ -32,7 +32,7 @@ class Trace:
         self.error: str | None = end.get("error")
         #: How the run ended, in a word.
         self.outcome: str | None = end.get("outcome")
-        #: The hash of all that happened.
+        #: The hash of everything that happened.
         self.digest: str | None = end.get("digest")
         #: When the run ended.
         self.end: float | None = end["end_ns"] * 1e-9 if "end_ns" in end else None

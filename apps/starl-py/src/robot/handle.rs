@@ -1,7 +1,7 @@
 //! The handle through which a program in Python sees and moves its robot.
 //!
-//! Python objects may outlive a call, and a [`Robot`] may not. So a handle owns copies of what the robot knows, collects
-//! effects of its own, and gives them up when the call returns; from then on it is empty.
+//! Python objects may outlive a call, and a [`Robot`] may not. So a handle owns copies of the robot's knowledge,
+//! collects effects, and returns them at the end of the call; from then on it is empty.
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -15,11 +15,11 @@ use std::sync::{Mutex, PoisonError};
 /// x, y and z, metres.
 pub type Place = (f64, f64, f64);
 
-/// A robot, for as long as one call of its program takes.
+/// A robot for the duration of one call of its program.
 #[pyclass(frozen, module = "starl._native")]
 pub struct Handle(Mutex<Option<Context>>);
 
-/// All that a [`Robot`] borrows.
+/// The data that a [`Robot`] borrows.
 pub struct Context {
     id: RobotId,
     now: Time,
@@ -161,7 +161,7 @@ impl Handle {
         self.with(|robot| robot.sensors().bumper.is_some())
     }
 
-    /// Whether stable variables outlast a crash.
+    /// Whether stable variables survive a crash.
     #[getter]
     fn has_storage(&self) -> PyResult<bool> {
         let context = self.0.lock().unwrap_or_else(PoisonError::into_inner);

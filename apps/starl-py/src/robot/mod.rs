@@ -30,7 +30,7 @@ pub struct PyProgram {
     has_started: bool,
     /// The stable variables as they are on storage.
     saved: BTreeMap<String, Vec<u8>>,
-    /// Why it cannot go on.
+    /// Why it cannot continue.
     broken: Option<String>,
 }
 

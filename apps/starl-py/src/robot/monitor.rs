@@ -21,7 +21,7 @@ pub struct PyMonitor {
 struct Property {
     /// As `Race.in_order`.
     name: Name,
-    /// Gives None where the property holds, and else what is wrong.
+    /// Returns `None` if the property holds, and else the reason for the violation.
     judge: Py<PyAny>,
     /// It has to hold once by then; at all times if none.
     within: Option<Duration>,
@@ -29,7 +29,7 @@ struct Property {
 
 #[derive(Clone, Copy, PartialEq)]
 enum Standing {
-    /// It holds as far as is known, or its time is not up.
+    /// It holds so far, or its deadline has not passed.
     Open,
     /// It did not hold when it was judged last.
     Violated,
@@ -76,7 +76,7 @@ impl PyMonitor {
         PyList::new(py, members)
     }
 
-    /// Says what is wrong with a property; none if it holds.
+    /// The reason for a property's violation; `None` if it holds.
     fn judge(py: Python<'_>, property: &Property, fleet: &Bound<'_, PyTuple>) -> Option<String> {
         let judged = property.judge.call1(py, fleet.clone());
         let judged = judged.and_then(|judged| judged.extract::<Option<String>>(py));

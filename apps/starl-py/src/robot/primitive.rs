@@ -66,7 +66,7 @@ macro_rules! of_kind {
             Kind::$kind(primitive) => primitive,
             _ => {
                 return Err(PyTypeError::new_err(concat!(
-                    "this is no ",
+                    "this is not a ",
                     stringify!($kind)
                 )))
             }

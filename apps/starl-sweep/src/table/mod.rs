@@ -55,10 +55,10 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's name asks for.
+    /// The format by a file's name.
     ///
     /// # Errors
-    /// Where it asks for none, or for one that this build does not have.
+    /// The name has no known format, or one that this build does not support.
     pub fn of(path: &Path) -> Result<Format, Error> {
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("csv") => Ok(Format::Csv),
@@ -123,7 +123,7 @@ impl Table {
     /// Writes the table.
     ///
     /// # Errors
-    /// Where the output cannot be written.
+    /// If the output cannot be written.
     pub fn write(&self, format: Format, output: &mut (impl Write + Send)) -> io::Result<()> {
         match format {
             #[cfg(feature = "parquet")]

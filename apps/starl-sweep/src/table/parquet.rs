@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Rows that readers hold at once.
 const ROWS_OF_A_GROUP: usize = 100_000;
 
-/// Writes the table. The file depends on nothing but the table.
+/// Writes the table. The file depends only on the table.
 pub fn write(table: &Table, output: &mut (impl Write + Send)) -> io::Result<()> {
     write_groups(table, output).map_err(|error| match error {
         ParquetError::External(error) => match error.downcast::<io::Error>() {

@@ -1,4 +1,4 @@
-//! Whatever is asked, there is an answer: bad requests get an error, and never a panic.
+//! Every request gets an answer: bad requests get an error, and never a panic.
 
 use crate::support::ask;
 use serde_json::{Value, json};
@@ -142,7 +142,7 @@ fn damaged_requests_never_panic() {
             for _ in 0..random.below(3) {
                 damage(&mut request, &mut random);
             }
-            // Without a bound on the steps a run may take long, which is no fault.
+            // Without a bound on the steps a run may take long, which is not a fault.
             if let Some(run) = request.get_mut("run").and_then(Value::as_object_mut) {
                 run.insert("steps".to_string(), json!(20));
             }

@@ -4,7 +4,7 @@ use crate::support::Client;
 use serde_json::{Value, json};
 
 #[test]
-fn stepping_and_going_back_makes_no_difference() {
+fn stepping_and_going_back_does_not_change_the_digest() {
     let golden: Vec<Value> =
         serde_json::from_str(include_str!("../../golden.json")).expect("the file is JSON");
     assert!(!golden.is_empty());

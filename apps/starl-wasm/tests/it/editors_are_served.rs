@@ -106,7 +106,7 @@ fn a_name_of_the_standard_library_leads_to_its_text() {
 }
 
 #[test]
-fn what_may_be_typed_says_what_to_insert() {
+fn completions_have_their_insertions() {
     let offered = at(
         "complete",
         &PROGRAM.replace("tools.twice(count)", "tools.tw|"),
@@ -162,7 +162,7 @@ fn an_outline_has_the_parts_of_the_text() {
 }
 
 #[test]
-fn a_text_is_laid_out_as_by_the_command() {
+fn a_text_is_formatted_as_by_the_command() {
     let untidy = PROGRAM
         .replace("count: Int = 0", "count:Int=0")
         .replace("    pre", "  pre");
@@ -204,7 +204,7 @@ fn problems_bring_their_fixes_and_other_places() {
 }
 
 #[test]
-fn what_cannot_be_edited_is_refused() {
+fn unknown_files_are_rejected() {
     let place = json!({"line": 0, "character": 0});
     for (path, words) in [
         ("lab/none.starl", "no such file"),

@@ -135,7 +135,7 @@ fn the_smaller_scenario_of_an_example_names_its_programs_everywhere() {
 }
 
 #[test]
-fn what_cannot_be_tried_is_refused() {
+fn invalid_trials_are_rejected() {
     let mut host = Service::default();
     let refused = [
         (

@@ -34,7 +34,7 @@ fn expected(client: &mut Client, until: f64, period: f64) -> Vec<f64> {
 
 #[test]
 fn frames_are_the_poses_of_the_sampled_moments() {
-    // The second period is no multiple of the step, the third is shorter than the step.
+    // The second period is not a multiple of the step, the third is shorter than the step.
     for period in [0.1, 0.123, 0.001] {
         let (mut sampled, mut stepped) = (race(), race());
         for until in [0.05, 0.1, 0.11, 0.9, 2.0] {
@@ -79,7 +79,7 @@ fn a_snapshot_keeps_frames_that_were_not_taken() {
 }
 
 #[test]
-fn what_is_no_period_is_refused() {
+fn invalid_periods_are_rejected() {
     let mut client = race();
     for period in [json!(0.0), json!(-1.0), json!(1e-12), json!("1s")] {
         let refused = client.try_ask("run", json!({"until": 1.0, "sample": period}));

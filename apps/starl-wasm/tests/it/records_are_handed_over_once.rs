@@ -1,4 +1,4 @@
-//! Records come in batches, in the form that they have in traces.
+//! Records are returned in batches, in the form of traces.
 
 use crate::support::Client;
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ fn records(client: &mut Client, max: u64) -> Vec<Value> {
 }
 
 #[test]
-fn batches_are_what_one_batch_would_be() {
+fn batches_add_up_to_one_batch() {
     let (mut one, mut other) = (broadcast(), broadcast());
     one.ask("run", json!({"until": 2.0}));
     let whole = records(&mut one, 1_000_000);
@@ -42,7 +42,7 @@ fn batches_are_what_one_batch_would_be() {
 }
 
 #[test]
-fn a_snapshot_keeps_what_was_not_taken() {
+fn a_snapshot_keeps_records_that_were_not_taken() {
     let mut client = broadcast();
     client.ask("run", json!({"until": 1.0}));
     let snapshot = client.ask("snapshot", json!({}));

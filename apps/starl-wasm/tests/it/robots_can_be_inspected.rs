@@ -10,7 +10,7 @@ fn named<'a>(list: &'a Value, name: &str) -> &'a Value {
 }
 
 #[test]
-fn guards_tell_what_happens_next() {
+fn guards_show_the_next_actions() {
     let program = "program Counter\n\ncount: Int = 0\n\nstop()\n    pre count >= 3\n    eff finish()\n\ntick()\n    pre count < 3\n    eff count = count + 1\n";
     let mut client = Client::open(
         json!({"counter.starl": program}),
@@ -35,7 +35,7 @@ fn guards_tell_what_happens_next() {
 }
 
 #[test]
-fn looking_makes_no_difference() {
+fn inspection_does_not_change_the_run() {
     for example in ["mutex", "memory", "search", "light-painting", "race"] {
         let open = || Client::open(json!({}), json!({"scenario": example, "seed": "5"}));
         let (mut watched, mut alone) = (open(), open());
@@ -61,7 +61,7 @@ fn looking_makes_no_difference() {
 }
 
 #[test]
-fn mail_arrives_when_it_was_to_arrive() {
+fn mail_arrives_at_its_announced_time() {
     let set = ["network.delay=\"300ms\"", "network.jitter=\"0s\""];
     let options = json!({"scenario": "broadcast", "set": set});
     let mut client = Client::open(json!({}), options);
@@ -177,7 +177,7 @@ fn states_are_the_values_of_the_first_enum() {
 }
 
 #[test]
-fn a_role_is_a_state_where_there_is_no_enum() {
+fn without_an_enum_the_role_is_the_state() {
     let roles = "program Roles\n\nparam colour: Colour = red\n\nenum Colour {red, blue}\n\nticks: Int = 0\n\ntick()\n    pre ticks < 10\n    eff ticks += 1\n\nrole scout\n    go()\n        pre ticks >= 10\n        eff role = guard\n\nrole guard\n    rest()\n        pre false\n        eff finish()\n";
     let options = json!({"robots": "create=1"});
     let mut client = Client::open(json!({"roles.starl": roles}), options);

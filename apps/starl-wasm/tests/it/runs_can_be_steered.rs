@@ -81,7 +81,7 @@ fn the_exported_scenario_goes_as_the_run_went() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn invalid_interventions_are_rejected() {
     let mut client = race();
     let refused = [
         (json!({"fault": {"crash": [99]}}), "there is no robot 99"),

@@ -161,7 +161,7 @@ fn a_condition_stops_the_run_when_it_becomes_true_of_the_fleet() {
 }
 
 #[test]
-fn breakpoints_make_no_difference_to_the_run() {
+fn breakpoints_do_not_change_the_run() {
     let (mut stopped, mut alone) = (race(), race());
     set(
         &mut stopped,
@@ -178,7 +178,7 @@ fn breakpoints_make_no_difference_to_the_run() {
 }
 
 #[test]
-fn breakpoints_stay_when_one_goes_back() {
+fn breakpoints_stay_after_going_back() {
     let mut client = race();
     let before = client.ask("snapshot", json!({}));
     set(

@@ -1,4 +1,4 @@
-//! Runs a workload and measures what it takes.
+//! Runs a workload and measures its time and memory.
 
 use super::workload::Workload;
 use crate::console::{grouped, rounded};
@@ -34,8 +34,8 @@ pub struct Figures {
     pub speed_factor: f64,
     pub messages_delivered: u64,
     pub messages_delivered_per_cpu_second: f64,
-    /// Growth of the process's memory, at its peak, from after a rehearsal with few robots; none where
-    /// the system does not tell it.
+    /// Growth of the process's memory, at its peak, from after a rehearsal with few robots; none if the system does not
+    /// report it.
     pub bytes_per_robot: Option<f64>,
     pub peak_memory_bytes: Option<u64>,
     pub collisions: u64,

@@ -10,7 +10,7 @@ use crate::args::{BenchArguments, Workload};
 use crate::failure::Failure;
 use crate::{console, json};
 
-/// Measures a workload and tells the figures.
+/// Measures a workload and prints the figures.
 pub fn bench(arguments: &BenchArguments) -> Result<bool, Failure> {
     let (load, workload) = match &arguments.workload {
         Workload::Swarm(swarm) => (&swarm.load, workload::swarm(swarm)),

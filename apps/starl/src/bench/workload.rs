@@ -9,7 +9,7 @@ pub struct Workload {
     pub name: &'static str,
     /// The scenario file.
     pub scenario: String,
-    /// The same with few robots, to go before: it loads what a run needs whatever its size.
+    /// The same with few robots, run first: it loads everything that any run needs.
     pub rehearsal: String,
 }
 

@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// More changed seeds are only counted.
 const MOST_LISTED: usize = 10;
 
-/// All that is told of a comparison. As JSON its fields are described in `docs/reference/command.md`.
+/// The report of a comparison. As JSON its fields are described in `docs/reference/command.md`.
 #[derive(Debug, Serialize)]
 pub struct Report {
     pub a: Side,

@@ -21,7 +21,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis from `left` on for what is to be shown of a story.
+    /// An axis from `left` on for the shown part of a story.
     pub fn new(story: &Story, extent: &Extent, left: f64) -> Axis {
         let violated = story.violations.first().map(|violation| violation.at);
         let end = extent
@@ -54,7 +54,7 @@ impl Axis {
         Axis { moments }
     }
 
-    /// When what is shown begins.
+    /// The time at which the shown part begins.
     pub fn start(&self) -> Time {
         self.moments[0].0
     }
@@ -69,7 +69,7 @@ impl Axis {
         self.moments[self.moments.len() - 1].1
     }
 
-    /// Where a moment lies; those before and after what is shown lie at its ends.
+    /// The position of a moment; moments before and after the shown part are at its ends.
     pub fn place(&self, at: Time) -> f64 {
         let after = self.moments.partition_point(|&(moment, _)| moment < at);
         let Some(&(next, x)) = self.moments.get(after) else {
@@ -83,7 +83,7 @@ impl Axis {
         start + (x - start) * share
     }
 
-    /// Whether a moment is among what is shown.
+    /// Whether a moment is in the shown part.
     pub fn shows(&self, at: Time) -> bool {
         self.start() <= at && at <= self.end()
     }

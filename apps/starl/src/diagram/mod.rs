@@ -109,7 +109,9 @@ fn of_trace(path: &Path, extent: &Extent, registry: &Registry) -> Result<Diagram
             Ok(record) => story.observe(&record),
             Err(error) if error.is_missing_end() => {
                 let path = path.display();
-                console::complain(&format!("{path}: drawn as far as it goes: {error}\n"));
+                console::complain(&format!(
+                    "{path}: the trace is incomplete, and its readable part is drawn: {error}\n"
+                ));
                 break;
             }
             Err(error) => return Err(unreadable(path, &error)),

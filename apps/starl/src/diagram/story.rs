@@ -41,13 +41,13 @@ pub struct Story {
 #[derive(Clone, Debug)]
 pub struct Message {
     pub from: RobotId,
-    /// None where it is lost for all.
+    /// None if it is lost for all receivers.
     pub to: Option<RobotId>,
     pub sent: Time,
     /// When it came, or was lost.
     pub at: Time,
     pub port: Port,
-    /// Why it did not come.
+    /// The reason why it was lost.
     pub lost: Option<DropReason>,
 }
 
@@ -69,7 +69,7 @@ pub enum MarkKind {
     Program,
     /// A fault set in.
     Fault,
-    /// The program came to its end.
+    /// The program finished.
     End,
 }
 
@@ -78,7 +78,7 @@ pub enum MarkKind {
 pub struct Partition {
     pub from: Time,
     pub to: Time,
-    /// Robots in none of them form one more.
+    /// All other robots form one more part.
     pub parts: Vec<Vec<RobotId>>,
 }
 
@@ -109,7 +109,7 @@ impl Story {
         }
     }
 
-    /// Whether what comes now is no more to be drawn.
+    /// Whether later events are outside the drawing.
     pub fn is_past(&self, extent: &Extent) -> bool {
         match extent.until {
             Some(until) => self.end > until,
@@ -120,7 +120,7 @@ impl Story {
         }
     }
 
-    /// Takes in what happened next.
+    /// Adds the next record.
     pub fn observe(&mut self, record: &Record) {
         let at = record.at;
         self.end = self.end.max(at);

@@ -1,4 +1,4 @@
-//! Required parts of a diagram, whatever happened.
+//! Parts that every diagram has.
 
 use super::story::Story;
 use super::*;
@@ -107,7 +107,7 @@ fn only_the_last_part_is_shown_if_that_is_asked_for() {
 }
 
 #[test]
-fn what_comes_after_the_first_violation_is_not_waited_for() {
+fn the_drawing_ends_at_the_first_violation() {
     let mut teller = story();
     let extent = Extent::default();
     assert!(!teller.0.is_past(&extent));

@@ -152,7 +152,7 @@ impl Account {
         if self.ignored_motions > 0 {
             line(
                 "motion",
-                "robots stand still; programs asked them to move".into(),
+                "robots stand still; their programs requested motion".into(),
             );
         }
         line("outcome", self.verdict());

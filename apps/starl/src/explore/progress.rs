@@ -8,7 +8,7 @@ use starl_explore::Report;
 pub struct Progress(ProgressBar);
 
 impl Progress {
-    /// Where the error stream is no terminal it shows nothing.
+    /// It shows nothing if the error stream is not a terminal.
     pub fn new(shown: bool) -> Progress {
         let spinner = match shown {
             true => ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(10)),
@@ -20,7 +20,7 @@ impl Progress {
         Progress(spinner)
     }
 
-    /// The search has come this far.
+    /// Shows the progress of the search.
     pub fn advance(&self, report: &Report) {
         if !self.0.is_hidden() {
             let open = report.states - report.expanded;

@@ -1,5 +1,4 @@
-//! The file that keeps the way to a violation, with all that is needed to go it again: JSON, so that a
-//! person can read it.
+//! The file with the path to a violation and everything needed to repeat it: JSON, so that it is readable.
 
 use crate::failure::Failure;
 use crate::run::start_error;
@@ -15,7 +14,7 @@ use std::path::Path;
 /// The explored part of a scenario.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Recording {
-    /// The first so many of its robots.
+    /// The number of robots: the first ones of the scenario.
     pub robots: usize,
     /// Within these bounds.
     pub bounds: Bounds,
@@ -52,7 +51,7 @@ impl Recording {
             .map_err(|error| start_error(application, &error))
     }
 
-    /// The fleet where the exploration begins, how many steps led there, and what was violated on the way.
+    /// The fleet at the beginning of the exploration, the number of steps before it, and the violations in them.
     pub fn begin(&self, setup: Setup) -> Result<(Walk, usize, Vec<Violation>), Failure> {
         let (mut walk, first) = Walk::start(setup);
         let mut violations = first.violations;
@@ -88,7 +87,7 @@ pub fn write(inputs: &Inputs, recording: &Recording, found: &Counterexample) -> 
 /// Reads the file.
 pub fn read(path: &Path, registry: &Registry) -> Result<(Kept, Application, Setup), Failure> {
     let kept: Kept = serde_json::from_str(&target::text(path)?)
-        .map_err(|error| Failure::file(path, format!("is no counterexample: {error}")))?;
+        .map_err(|error| Failure::file(path, format!("is not a counterexample: {error}")))?;
     if kept.counterexample_layout != LAYOUT {
         return Err(Failure::file(
             path,

@@ -1,4 +1,4 @@
-//! Goes the way to a violation step by step, and tells what happens on it.
+//! Follows the path to a violation step by step, and prints its events.
 
 use super::record::Recording;
 use super::{events, record};
@@ -15,13 +15,13 @@ use std::fs::File;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// A way that was gone.
+/// A path that was followed.
 pub struct Shown {
     /// The account of it, line by line.
     pub lines: Vec<String>,
     /// Its events, a second to a step.
     records: Vec<Record>,
-    /// Whether what was violated is violated again.
+    /// Whether the property is violated again.
     pub again: bool,
 }
 
@@ -37,7 +37,7 @@ impl Shown {
 /// Where a drawing goes.
 pub type Sheet = (Output, File);
 
-/// Opens the file of a drawing, if there is to be one.
+/// Opens the file of the drawing, if one is requested.
 pub fn sheet(path: Option<&Path>) -> Result<Option<Sheet>, Failure> {
     let Some(path) = path else { return Ok(None) };
     match path.extension().is_some_and(|suffix| suffix == "svg") {

@@ -1,4 +1,4 @@
-//! `starl emulate`: stands in for hardware. Emulated robots are the simulator's models in one world, behind the wire
+//! `starl emulate`: emulates hardware. Emulated robots are the simulator's models in one world, behind the wire
 //! protocols of the devices.
 
 use super::device::generation;

@@ -53,8 +53,8 @@ struct Link {
     /// The network; default UDP.
     #[serde(default)]
     kind: LinkKind,
-    /// With Zenoh: a router that all robots are clients of, e.g. `tcp/192.168.0.1:7447`; default none, robots connect to
-    /// each other.
+    /// With Zenoh: a router that all robots are clients of, e.g. `tcp/192.168.0.1:7447`; default none, robots connect
+    /// to each other.
     router: Option<String>,
     /// With Zenoh: certificates.
     tls: Option<Tls>,
@@ -242,7 +242,7 @@ pub struct Fleet {
     pub network: Network,
     /// The source of positions.
     pub positions: Option<Positions>,
-    /// A robot's trace ends when it has so many bytes.
+    /// The largest size of a robot's trace in bytes; the trace ends there.
     pub trace_limit: u64,
 }
 
@@ -333,7 +333,7 @@ impl Fleet {
         places.map(|robot| (robot.id.0, robot.address)).collect()
     }
 
-    /// Whether all robots are on this machine, as far as their addresses say.
+    /// Whether all robots are on this machine, by their addresses.
     pub fn is_local(&self) -> bool {
         self.robots
             .iter()
@@ -386,8 +386,7 @@ fn members(
             (Some(address), _) => address,
             (None, Some(port)) => SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port),
             (None, None) => {
-                let what =
-                    format!("robots.{name}: there is no port left for it; give it an `address`");
+                let what = format!("robots.{name}: no free port is left for it; set its `address`");
                 return Err(Failure::file(path, what));
             }
         };
@@ -480,7 +479,7 @@ fn safety(path: &Path, written: &Safety, period: Duration) -> Result<starl_node:
     })
 }
 
-/// Names the line of what is wrong.
+/// Adds the line of the error.
 fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
     let before = error
         .span()

@@ -1,8 +1,8 @@
-//! `starl view FLEET.toml`: what happens on the robots of a running fleet, as one trace that grows.
+//! `starl view FLEET.toml`: the events on the robots of a running fleet, as one growing trace.
 //!
-//! Each robot tells what happens on it (`starl_node::link::frame::Seen`). The times in the trace count from when the
-//! fleet is followed. How far a robot's clock is from that is taken from the quickest packet that came from it, so that
-//! events of different robots are in order to within the time that packets take.
+//! Each robot sends its events (`starl_node::link::frame::Seen`). The times in the trace count from the start of the
+//! command. The offset of a robot's clock is computed from its fastest packet, so the events of different robots are in
+//! order within the delay of packets.
 
 use super::connect::connect;
 use super::file::Fleet;
@@ -47,7 +47,7 @@ impl Follower {
         &self.fleet.name
     }
 
-    /// Hands on a trace, piece by piece, until its taker refuses.
+    /// Passes on a trace, piece by piece, until its receiver refuses.
     pub fn run(mut self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> Result<(), Failure> {
         let application = &self.fleet.application;
         let setting = starl_sim::setting(application.scenario());

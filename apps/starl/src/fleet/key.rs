@@ -35,7 +35,7 @@ pub fn make(arguments: &FleetKeyArguments) -> Result<bool, Failure> {
     Ok(true)
 }
 
-/// Makes a key where there is none, for a fleet on this machine.
+/// Makes a key if there is none, for a fleet on this machine.
 pub fn make_if_missing(path: &Path) -> Result<(), Failure> {
     match path.exists() {
         true => Ok(()),

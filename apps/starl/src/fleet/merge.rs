@@ -1,8 +1,8 @@
 //! `starl fleet merge`: joins the traces of a fleet's robots on one time axis.
 //!
-//! How far the robots' clocks are apart is found in the traces themselves: a datagram is on record where it was sent and
-//! where it arrived. The shortest delays in both directions between two robots bound the difference of their clocks (as
-//! in RFC 5905). In a long run the difference is a line through those of its parts, since clocks drift.
+//! The differences of the robots' clocks are computed from the traces: a datagram is recorded at its sender and at its
+//! receiver. The shortest delays in both directions between two robots bound the difference of their clocks (as in RFC
+//! 5905). Clocks drift, so in a long run a line is fitted through the differences in its parts.
 
 use super::file::Fleet;
 use super::folder::Folder;
@@ -73,7 +73,7 @@ impl Merged {
             };
         }
         for robot in &self.missing {
-            text += &format!("{}: there is no trace of it\n", name(robot));
+            text += &format!("{}: its trace is missing\n", name(robot));
         }
         for robot in &self.apart {
             text += &format!(

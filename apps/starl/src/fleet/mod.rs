@@ -1,4 +1,4 @@
-//! Real fleets: `starl robot` runs one robot, `starl fleet` all of them, or what has to do with all of them.
+//! Real fleets: `starl robot` runs one robot, and `starl fleet` has the commands for all of them.
 
 mod connect;
 mod device;

@@ -72,7 +72,10 @@ impl FleetRecorder {
 
     fn keep(&mut self, done: impl FnOnce(&mut TraceOutput) -> Result<(), crate::failure::Failure>) {
         if let Some(Err(failure)) = self.trace.as_mut().map(done) {
-            console::error(&format!("{}: the robot goes on without a trace", failure.0));
+            console::error(&format!(
+                "{}: the robot continues without a trace",
+                failure.0
+            ));
             self.trace = None;
         }
     }
@@ -92,7 +95,7 @@ impl Recorder for FleetRecorder {
                 self.say(at, &format!("{level}{text}"));
             }
             Event::Finished => self.say(at, "finished"),
-            Event::Failed(why) => self.say(at, &format!("its program cannot go on: {why}")),
+            Event::Failed(why) => self.say(at, &format!("its program cannot continue: {why}")),
             _ => {}
         }
         let robot = Some(self.robot);
@@ -117,7 +120,7 @@ impl Recorder for FleetRecorder {
             .is_some_and(|trace| trace.size() >= self.limit)
         {
             let text = format!(
-                "the trace has {} MiB and ends here; the robot goes on without one",
+                "the trace has {} MiB and ends here; the robot continues without one",
                 self.limit >> 20
             );
             self.notice(now, &text);

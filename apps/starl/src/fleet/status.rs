@@ -11,7 +11,7 @@ use starl_catalog::programs::Registry;
 use starl_node::link::frame::Status;
 use std::time::Duration;
 
-/// A robot that does not answer for so long is missing.
+/// A robot that does not answer within this time is missing.
 pub const PATIENCE: Duration = Duration::from_millis(1500);
 
 /// One robot's line. Lengths are in metres, times in seconds.

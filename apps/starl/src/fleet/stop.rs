@@ -22,7 +22,7 @@ pub fn stop(arguments: &FleetStopArguments, registry: &Registry) -> Result<bool,
     if !silent.is_empty() {
         let names = silent.join(", ");
         console::error(&format!(
-            "no answer from {names}: not running, or not to be reached from here"
+            "no answer from {names}: not running, or not reachable from here"
         ));
     }
     Ok(silent.is_empty())

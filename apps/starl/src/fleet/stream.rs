@@ -76,7 +76,7 @@ mod tests {
     use starl_core::{Event, Pose, RobotId, Time};
 
     #[test]
-    fn a_stream_is_a_trace_that_can_be_read_as_far_as_it_goes() {
+    fn an_unfinished_stream_is_a_readable_trace() {
         let mut stream = Stream::new(&Header::default()).unwrap();
         let mut bytes = stream.take();
         // More than a chunk.

@@ -1,4 +1,4 @@
-//! `starl fleet up`: runs all robots of a fleet on this machine, each in a process of its own, and judges what they did.
+//! `starl fleet up`: runs all robots of a fleet on this machine, each in its own process, and judges the run.
 
 use super::connect::connect;
 use super::file::Fleet;
@@ -22,10 +22,10 @@ use std::time::{Duration, Instant};
 /// Robots are asked how they are this often.
 const PERIOD: Duration = Duration::from_millis(500);
 
-/// A robot that has died is started again after this.
+/// A robot that has died is restarted after this.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// A robot that was told to stop has so long to end.
+/// The time that a robot has to end after the order to stop.
 const PATIENCE: Duration = Duration::from_secs(15);
 
 /// Starts a fleet, waits for its end, and judges it; whether its goal was reached and no property violated.
@@ -131,7 +131,7 @@ fn emulator(fleet: &Path) -> Result<Emulator, Failure> {
     }
 }
 
-/// This command, to be started once more.
+/// This command, to be started again.
 fn this_command() -> std::io::Result<Command> {
     let mut command = Command::new(std::env::current_exe()?);
     // Ctrl-C is for this process, which ends the others in good order.
@@ -244,7 +244,7 @@ impl<'a> Robots<'a> {
                     )));
                 }
                 console::complain(&format!(
-                    "{} has died ({}), and is started again\n",
+                    "{} has died ({}), and is restarted\n",
                     robot.name,
                     how(status)
                 ));
@@ -260,7 +260,7 @@ impl<'a> Robots<'a> {
         Ok(())
     }
 
-    /// Ends all processes: robots that were told to stop have a while for it.
+    /// Ends all processes; robots that were ordered to stop have some time to do so.
     fn end(&mut self) {
         let begun = Instant::now();
         for robot in &mut self.robots {

@@ -119,9 +119,9 @@ impl Answers<'_> {
             ask::CodeActionRequest::METHOD => {
                 self.of::<ask::CodeActionRequest>(params, |this, params| {
                     let checked = this.checked(&params.text_document)?;
-                    let mends = diagnostics::mends(&checked, params.range);
-                    let mends = mends.into_iter().map(CodeActionOrCommand::CodeAction);
-                    Ok(Some(mends.collect()))
+                    let fixes = diagnostics::fixes(&checked, params.range);
+                    let fixes = fixes.into_iter().map(CodeActionOrCommand::CodeAction);
+                    Ok(Some(fixes.collect()))
                 })
             }
             ask::SemanticTokensFullRequest::METHOD => {

@@ -17,7 +17,7 @@ pub struct Client {
     pub snippets: bool,
     /// It shows texts that are part of the command.
     pub built_in_texts: bool,
-    /// It tells of changed files if it is asked to.
+    /// It reports changed files on request.
     pub watches_files: bool,
 }
 

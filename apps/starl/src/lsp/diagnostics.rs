@@ -53,16 +53,16 @@ fn message(problem: &diagnostic::Diagnostic) -> String {
 }
 
 /// The fixes of the problems in a part of a text.
-pub fn mends(checked: &Checked, range: Range) -> Vec<CodeAction> {
+pub fn fixes(checked: &Checked, range: Range) -> Vec<CodeAction> {
     let text = Text::new(checked.analysis.text());
     let asked = text.span(range);
     let problems = checked.analysis.diagnostics().iter();
     let touched = problems.filter(|problem| touches(problem.span, asked));
     let actions = touched.filter_map(|problem| {
-        let mend = problem.mend.as_ref()?;
-        let edits = mend.edits.iter().map(|edit| text.edit(edit)).collect();
+        let fix = problem.fix.as_ref()?;
+        let edits = fix.edits.iter().map(|edit| text.edit(edit)).collect();
         Some(CodeAction {
-            title: capitalized(&mend.message),
+            title: capitalized(&fix.message),
             kind: Some(CodeActionKind::QUICKFIX),
             diagnostics: Some(vec![converted(checked, &text, problem)]),
             edit: Some(WorkspaceEdit::new(HashMap::from([(

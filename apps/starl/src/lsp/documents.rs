@@ -1,4 +1,4 @@
-//! The texts that are open, the files beside them, and what is known of each.
+//! The open texts, the files beside them, and their analyses.
 
 use super::location;
 use lsp_types::Uri;
@@ -21,13 +21,13 @@ const MOST_FILES: usize = 1_000;
 /// A text that is open.
 struct Document {
     uri: Uri,
-    /// None of what is no file yet.
+    /// `None` if there is no such file yet.
     path: Option<PathBuf>,
     version: i32,
     text: Rc<str>,
     /// The analysis; none if it, or an imported library, may have changed.
     checked: RefCell<Option<Rc<Checked>>>,
-    /// Whether the editor has been told what is wrong with it.
+    /// Whether its diagnostics have been sent to the editor.
     is_told: bool,
 }
 
@@ -51,7 +51,7 @@ pub struct Checked {
 }
 
 impl Checked {
-    /// How the editor knows one of its files; none of what is part of the command.
+    /// The editor's URI of one of its files; none for a file that is part of the command.
     pub fn uri_of(&self, file: u32) -> Option<Uri> {
         if file == 0 {
             return Some(self.uri.clone());
@@ -77,7 +77,7 @@ pub struct Documents {
 }
 
 impl Documents {
-    /// Takes in that a text was opened.
+    /// Adds an opened text.
     pub fn open(&mut self, uri: Uri, version: i32, text: String) {
         let path = location::path(&uri);
         self.forget_importers(path.as_deref());
@@ -92,7 +92,7 @@ impl Documents {
         self.open.insert(uri.as_str().to_string(), document);
     }
 
-    /// Takes in a change; `change` makes the new text of the old. False if the text is not open.
+    /// Applies a change; `change` computes the new text from the old. False if the text is not open.
     pub fn change(&mut self, uri: &Uri, version: i32, change: impl FnOnce(&str) -> String) -> bool {
         let Some(document) = self.open.get_mut(uri.as_str()) else {
             return false;
@@ -106,14 +106,14 @@ impl Documents {
         true
     }
 
-    /// Takes in that a text was closed.
+    /// Removes a closed text.
     pub fn close(&mut self, uri: &Uri) {
         if let Some(document) = self.open.remove(uri.as_str()) {
             self.forget_importers(document.path.as_deref());
         }
     }
 
-    /// Forgets what is known of all texts: files changed.
+    /// Drops the analyses of all texts, because files have changed.
     pub fn forget(&mut self) {
         for document in self.open.values_mut() {
             document.is_told = false;
@@ -174,7 +174,7 @@ impl Documents {
         }
     }
 
-    /// The texts of which the editor does not know what is wrong with them, with their versions.
+    /// The texts whose problems have not been published, with their versions.
     pub fn untold(&mut self) -> Vec<(Rc<Checked>, i32)> {
         let uris: Vec<Uri> = (self.open.values_mut())
             .filter(|document| !document.is_told)

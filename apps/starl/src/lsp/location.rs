@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_file_has_no_path() {
+    fn other_uris_have_no_path() {
         for text in [
             "untitled:Untitled-1",
             "starl-library:/prelude.starl",

@@ -1,5 +1,4 @@
-//! `starl lsp`: what an editor needs to know of programs, over the Language Server Protocol 3.17 on
-//! standard input and output.
+//! `starl lsp`: a server for editors, over the Language Server Protocol 3.17 on standard input and output.
 //!
 //! The information comes from [`starl_lang::editor`]; this module contains only the protocol, the open
 //! texts, and the files beside them. A text is checked when its check is requested, and after every change
@@ -43,7 +42,7 @@ fn serve(incoming: &Receiver<Incoming>, session: &mut Session) -> io::Result<boo
             Ok(message) => message,
             Err(TryRecvError::Disconnected) => return Ok(false),
             Err(TryRecvError::Empty) => {
-                // Nothing is waiting: time to say what is wrong with what was typed.
+                // No message is waiting: the diagnostics of the edited text are sent.
                 session.publish()?;
                 match incoming.recv() {
                     Ok(message) => message,

@@ -29,14 +29,14 @@ fn location(checked: &Checked, site: Site, knows_built_in: bool) -> Option<Locat
     Some(Location::new(uri, range))
 }
 
-/// Where what is named at a place is declared.
+/// The declaration of the name at a position.
 pub fn definition(checked: &Checked, position: Position, knows_built_in: bool) -> Option<Location> {
     let found = name_at(checked, position)?;
     let site = checked.analysis.definition(found.symbol)?;
     location(checked, site, knows_built_in)
 }
 
-/// All places where what is named at a place is named, in other texts too.
+/// All uses of the name at a position, in other texts too.
 pub fn references(
     documents: &Documents,
     checked: &Rc<Checked>,
@@ -60,8 +60,8 @@ pub fn references(
     Some(places.into_values().collect())
 }
 
-/// The texts that name what a text names, each with what it is there: the text itself, and those that
-/// import the library in which it is declared.
+/// The texts that may use a symbol, each with the symbol in that text: the text itself, and those that import the
+/// library of its declaration.
 pub fn users(
     documents: &Documents,
     checked: &Rc<Checked>,

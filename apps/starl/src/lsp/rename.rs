@@ -7,7 +7,7 @@ use lsp_types::{Position, PrepareRenameResponse, TextEdit, Uri, WorkspaceEdit};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The name that can be renamed at a place, or why there is none.
+/// The name that can be renamed at a position, or the reason why there is none.
 pub fn prepare(checked: &Checked, position: Position) -> Result<PrepareRenameResponse, String> {
     let text = Text::new(checked.analysis.text());
     let found = checked.analysis.renameable(text.offset(position))?;
@@ -33,7 +33,7 @@ fn check_place(checked: &Checked, symbol: starl_lang::check::Symbol) -> Result<(
 /// The changes of a file, by the places that they change.
 type Places = BTreeMap<(u32, u32), TextEdit>;
 
-/// The changes that give what is named at a place another name, or why it keeps its own.
+/// The changes that rename the name at a position, or the reason why it cannot be renamed.
 pub fn rename(
     documents: &Documents,
     checked: &Rc<Checked>,

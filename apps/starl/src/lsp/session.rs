@@ -1,4 +1,4 @@
-//! One editor: what it said, what it is told.
+//! The session with one editor: its messages and the answers.
 
 use super::answer::{Answers, read};
 use super::capabilities::{Client, capabilities};
@@ -57,7 +57,7 @@ impl Session {
         }
     }
 
-    /// Takes in a message.
+    /// Handles a message.
     pub fn take(&mut self, incoming: Incoming) -> io::Result<Step> {
         let mut message = match incoming {
             Incoming::Message(message) => message,
@@ -137,8 +137,8 @@ impl Session {
         }
     }
 
-    /// Takes in a notification. One that cannot be understood is no reason to say anything: the protocol
-    /// has no answer to it.
+    /// Takes in a notification. One that cannot be read is ignored: the protocol has no answer to
+    /// it.
     fn note(&mut self, method: &str, params: Value) -> io::Result<()> {
         if self.phase != Phase::Ready {
             return Ok(());
@@ -176,7 +176,7 @@ impl Session {
         Ok(())
     }
 
-    /// Asks the editor to tell of files that change.
+    /// Asks the editor to report files that change.
     fn watch(&mut self) -> io::Result<()> {
         if !self.client.watches_files {
             return Ok(());
@@ -190,7 +190,7 @@ impl Session {
             .request("starl-files", "client/registerCapability", &params)
     }
 
-    /// Tells the editor what is wrong with the texts of which it does not know that.
+    /// Publishes the problems of texts that have not been published yet.
     pub fn publish(&mut self) -> io::Result<()> {
         if self.phase != Phase::Ready {
             return Ok(());

@@ -1,8 +1,7 @@
-//! Messages as bytes: JSON-RPC 2.0 with a header that says how long each message is (protocol 3.17, "Base
-//! Protocol").
+//! Messages as bytes: JSON-RPC 2.0 with a header for the length of each message (protocol 3.17, "Base Protocol").
 //!
-//! Written here rather than taken from `lsp-server`, whose reader ends at the first message that is
-//! not JSON and allocates as many bytes as a header says.
+//! Written here rather than taken from `lsp-server`, whose reader ends at the first message that is not JSON and
+//! allocates as many bytes as the header claims.
 
 use serde_json::{Value, json};
 use std::io::{self, BufRead, Read, Write};
@@ -18,13 +17,13 @@ const MOST_WAITING: usize = 64;
 /// The number of an error in an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The message is no JSON.
+    /// The message is not JSON.
     Parse = -32700,
     /// The message is not a request, or not one that is possible now.
     InvalidRequest = -32600,
     /// There is no such request.
     MethodNotFound = -32601,
-    /// The request's parameters are not what they must be.
+    /// The request's parameters are invalid.
     InvalidParams = -32602,
     /// The server is at fault.
     Internal = -32603,
@@ -39,7 +38,7 @@ pub enum Fault {
 pub enum Incoming {
     /// A message.
     Message(Value),
-    /// Something that is none, with what is wrong with it.
+    /// A malformed message, with the problem.
     Malformed(String),
 }
 
@@ -132,12 +131,12 @@ impl Output {
         })
     }
 
-    /// Tells the editor something.
+    /// Sends the editor a notification.
     pub fn notify(&mut self, method: &str, params: &Value) -> io::Result<()> {
         self.send(&json!({"jsonrpc": "2.0", "method": method, "params": params}))
     }
 
-    /// Asks the editor for something; the answer does not matter.
+    /// Sends the editor a request; the answer is ignored.
     pub fn request(&mut self, id: &str, method: &str, params: &Value) -> io::Result<()> {
         self.send(&json!({"jsonrpc": "2.0", "id": id, "method": method, "params": params}))
     }
@@ -157,13 +156,13 @@ mod tests {
     }
 
     #[test]
-    fn messages_come_one_after_the_other() {
+    fn messages_are_read_in_order() {
         let found = all(b"Content-Length: 2\r\n\r\n{}content-length:1\r\nX: y\r\n\r\n7");
         assert_eq!(found, [Ok(json!({})), Ok(json!(7))]);
     }
 
     #[test]
-    fn what_is_no_message_is_told_and_the_next_is_read() {
+    fn a_malformed_message_is_reported_and_the_next_is_read() {
         let found = all(b"Content-Length: 3\r\n\r\n{,}Content-Length: 2\r\n\r\n[]");
         assert!(found[0].is_err());
         assert_eq!(found[1], Ok(json!([])));

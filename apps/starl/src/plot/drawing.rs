@@ -30,7 +30,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// A line that covers what is behind it.
+    /// An opaque line.
     pub fn solid(color: Color, width: f64) -> Stroke {
         Stroke {
             color,
@@ -51,7 +51,7 @@ pub struct Fill {
 }
 
 impl Fill {
-    /// An inside that covers what is behind it.
+    /// An opaque fill.
     pub fn solid(color: Color) -> Fill {
         Fill {
             color,
@@ -111,7 +111,7 @@ pub enum Shape {
         /// Whether a white rim sets it off from what is behind.
         rim: bool,
     },
-    /// All that follows is cut off outside this rectangle, given by two corners; none ends that.
+    /// Clips everything that follows to this rectangle, given by two corners; none ends the clipping.
     Clip(Option<(Spot, Spot)>),
 }
 

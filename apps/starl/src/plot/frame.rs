@@ -33,7 +33,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame around all that is to be shown.
+    /// A frame around everything shown.
     pub fn around(data: &PlotData) -> Frame {
         let extent::Extent { low, high, world } = extent::of(data);
         let longest = (high.0 - low.0).max(high.1 - low.1);
@@ -91,7 +91,7 @@ impl Frame {
         ticks(low, high, step).map(move |at| (at, label(at, step)))
     }
 
-    /// Lines and numbers every so many metres, and the edge.
+    /// Lines and numbers at regular distances, and the edge.
     pub fn draw_axes(&self, drawing: &mut Drawing) {
         let ((left, top), (right, bottom)) = self.corners();
         let (thin, ink) = (Stroke::solid(GRID, 1.0), Stroke::solid(INK, 1.0));
@@ -128,7 +128,7 @@ impl Frame {
         );
     }
 
-    /// The edge, over all that reaches beyond it.
+    /// The edge, above everything that extends beyond it.
     pub fn draw_edge(&self, drawing: &mut Drawing) {
         let ((left, top), (right, bottom)) = self.corners();
         drawing.push(Shape::Line {

@@ -35,7 +35,7 @@ pub struct Style {
     /// Height of a line.
     pub size: f64,
     pub color: Color,
-    /// Whether it is written even where there is no free place.
+    /// Whether it is written even without free space.
     pub needed: bool,
 }
 

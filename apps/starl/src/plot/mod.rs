@@ -73,7 +73,7 @@ pub struct Thing {
     pub name: String,
     /// Where, metres.
     pub position: Point,
-    /// Whether it is there no more.
+    /// Whether it has been removed.
     pub is_gone: bool,
 }
 

@@ -33,7 +33,7 @@ const EIGHT: [Color; 8] = [
     [190, 175, 0],
 ];
 
-/// The colour of one among so many.
+/// The colour of one among this number.
 pub fn color(index: usize, of: usize) -> Color {
     if of <= EIGHT.len() {
         return EIGHT[index % EIGHT.len()];

@@ -17,7 +17,7 @@ const NEAREST: f64 = 0.4;
 
 /// The look of the robots.
 pub struct Looks {
-    /// The models in the order in which they first come.
+    /// The models in the order of their first robots.
     pub models: Vec<String>,
     /// Whether robots of a model share a colour.
     pub by_model: bool,

@@ -1,4 +1,4 @@
-//! Signs for what is at a place, or happened there: waypoints, things, crashes, collisions.
+//! Signs for waypoints, things, crashes and collisions.
 
 use super::drawing::{Drawing, Fill, Shape, Spot, Stroke};
 use super::frame::Frame;
@@ -10,7 +10,7 @@ use super::{Crash, PlotData};
 /// With more than this of a kind they have no names or times.
 const MOST_NAMES: usize = 24;
 
-/// The sign for a thing, filled unless it is there no more.
+/// The sign for a thing, filled unless it has been removed.
 pub fn thing(drawing: &mut Drawing, (x, y): Spot, is_gone: bool) {
     let reach = 6.0;
     let points = vec![

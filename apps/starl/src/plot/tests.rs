@@ -228,7 +228,7 @@ fn a_png_shows_the_same_picture_with_text_on_a_machine_without_fonts() {
 }
 
 #[test]
-fn what_programs_draw_is_shown() {
+fn drawings_of_programs_are_shown() {
     let mut data = race();
     let plain = svg(&data);
     let corner = Point::planar(0.5, 2.0);
@@ -302,7 +302,7 @@ fn things_crashes_times_and_ranges_are_shown_and_explained() {
 fn a_dot_lies_where_the_robot_was_at_its_time() {
     let mut data = race();
     let at = |x| Point::planar(x, 0.0);
-    // It rests from 2 s to 6 s, and goes on at 1 m/s.
+    // It rests from 2 s to 6 s, and continues at 1 m/s.
     let path = [(0, at(0.0)), (2, at(2.0)), (6, at(2.0)), (8, at(4.0))];
     data.robots.truncate(1);
     data.robots[0].path = path

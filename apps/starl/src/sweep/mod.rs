@@ -145,7 +145,7 @@ fn plan(
     Ok((plan, application.scenario().title.clone(), files))
 }
 
-/// Tells of programs with errors, each with its lines, and sums them up.
+/// Prints the errors of programs, each with its lines; the failure sums them up.
 pub fn refused(error: Error, origin: &Origin) -> Failure {
     match error {
         Error::Refused(refusal) => target::tell(&refusal, |findings| origin.name(findings)),

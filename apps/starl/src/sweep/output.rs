@@ -13,7 +13,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Opens the journal of a table, if one is to be written, and returns the rows that it has.
+    /// Opens the journal of a table, if one is requested, and returns its rows.
     pub fn open(
         out: Option<(&Path, Format)>,
         plan: &Plan,

@@ -15,7 +15,7 @@ const CORNER: Spot = (64.0, 78.0);
 const FIELD: (f64, f64) = (560.0, 360.0);
 /// Height of a line of the legend.
 const ROW: f64 = 20.0;
-/// More lines cannot be told apart.
+/// More lines cannot be distinguished.
 const MOST_LINES: usize = 24;
 
 /// A point of a line: the place on the first axis, the estimate and the ends of its interval.

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// All that is told of a sweep. As JSON its fields are described in `docs/reference/command.md`.
+/// The report of a sweep. As JSON its fields are described in `docs/reference/command.md`.
 #[derive(Debug, Serialize)]
 pub struct Report {
     pub target: String,
@@ -144,11 +144,11 @@ impl Report {
                 let arguments = std::env::args().skip(1).map(|word| quoted(&word));
                 let again: Vec<String> = [command()].into_iter().chain(arguments).collect();
                 writeln!(text, "saved       {}", journal.display())?;
-                writeln!(text, "  to go on: {}", again.join(" "))
+                writeln!(text, "  to continue: {}", again.join(" "))
             }
             None => writeln!(
                 text,
-                "nothing was saved; with --out FILE a sweep goes on where it stopped"
+                "nothing was saved; with --out FILE a sweep continues where it stopped"
             ),
         }
     }

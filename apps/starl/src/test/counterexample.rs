@@ -35,8 +35,8 @@ pub struct Counterexample {
 }
 
 impl Counterexample {
-    /// Shrinks a run and saves it; as far as it has come when someone stops it. `known` is what a cluster found about the
-    /// scenarios to try; the others are tried here.
+    /// Shrinks a run and saves it; an interrupted search saves the smallest scenario so far. `known` contains a
+    /// cluster's results for scenarios; the others are tried here.
     pub fn of(
         search: &Search,
         case: &Case,

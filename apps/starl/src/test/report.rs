@@ -9,7 +9,7 @@ use starl_catalog::trial::{Extent, Subject};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// All that is told. As JSON its fields are described in `docs/reference/command.md`.
+/// The report of a test. As JSON its fields are described in `docs/reference/command.md`.
 #[derive(Debug, Serialize)]
 pub struct Report {
     pub targets: Vec<Target>,
@@ -48,7 +48,7 @@ pub struct Row {
     pub excused: Vec<Excused>,
 }
 
-/// How often something that speaks against a property was excused for one reason.
+/// The number of excused violations of a property, for one reason.
 #[derive(Debug, Serialize)]
 pub struct Excused {
     pub property: String,

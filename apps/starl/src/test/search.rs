@@ -92,8 +92,8 @@ impl Search {
         Ok(found)
     }
 
-    /// Has smaller scenarios looked for on a cluster, for all cases at once. The result for each case is what there is to
-    /// know about scenarios that were tried; empty if someone stopped it before, or where there is no cluster.
+    /// Searches for smaller scenarios on a cluster, for all cases in parallel. Returns for each case the results of the
+    /// scenarios that were tried; empty if interrupted before, or without a cluster.
     pub fn shrink(
         &self,
         cases: &[(Case, u64)],

@@ -12,7 +12,7 @@ use starl_catalog::trial::Subject;
 pub struct Target {
     /// As it was given.
     pub name: String,
-    /// Where its files come from.
+    /// The origin of its files.
     pub origin: Origin,
 }
 

@@ -10,7 +10,7 @@ use starl_properties::{Verdict, Violation};
 use std::fmt::{self, Write};
 use std::path::Path;
 
-/// All that is told. As JSON its fields are described in `docs/reference/command.md`.
+/// The report of the verdicts. As JSON its fields are described in `docs/reference/command.md`.
 #[derive(Debug, Serialize)]
 pub struct Account {
     pub trace: String,

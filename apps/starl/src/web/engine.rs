@@ -30,7 +30,7 @@ const MOST_BYTES: usize = 16 << 20;
 /// Messages beyond this end the connection.
 const MOST_MESSAGE_BYTES: usize = 64 << 20;
 
-/// So many requests may wait for their turn; more end the connection.
+/// The number of requests that may wait for their turn; one more ends the connection.
 const MOST_WAITING: usize = 256;
 
 /// The simulation that every page is given at first.
@@ -43,7 +43,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Pages get copies of the session, whose run steps on the threads of the pool.
+    /// Pages get copies of the session; its run steps on the threads of the pool.
     pub fn new(session: Session, registry: Registry, pool: Option<ThreadPool>) -> Origin {
         Origin {
             session: Mutex::new(session),

@@ -1,4 +1,4 @@
-//! A trace that grows while it is served: each page gets all of it, and the rest as it comes.
+//! A trace that grows while it is served: each page gets all of it, and new parts when they are written.
 
 use crate::failure::Failure;
 use axum::body::Body;
@@ -37,7 +37,7 @@ impl Growing {
         Ok((Growing { path, size }, Writer { file, size: sender }))
     }
 
-    /// Answers with the trace, which ends when its writer has gone.
+    /// Answers with the trace, which ends when its writer is dropped.
     pub async fn answer(&self) -> Response {
         let (sender, receiver) = tokio::io::duplex(CHUNK);
         let (path, size) = (self.path.clone(), self.size.clone());

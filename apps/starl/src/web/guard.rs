@@ -1,5 +1,5 @@
-//! Decides which requests are answered: only those of pages that this very server has sent, in the browser of the
-//! person who started it.
+//! Decides which requests are answered: only those of pages from this server, in the browser of the user who started
+//! it.
 //!
 //! Other programs on the machine can reach the server, and pages from anywhere can make a browser send requests to
 //! it. So a request needs the cookie that the printed address sets, must name this server as its host (else a name

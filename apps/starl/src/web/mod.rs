@@ -1,8 +1,7 @@
-//! The page in a browser, and the server on this machine that it comes from: `starl run --open`, `starl view` and
-//! `starl web`.
+//! The page in a browser, and its server on this machine: `starl run --open`, `starl view` and `starl web`.
 //!
-//! The server adds nothing to what a run does: the page has the same requests to the same
-//! [`Service`](starl_catalog::service::Service) as where the simulator is WebAssembly.
+//! The server does not change a run: the page sends the same requests to the same
+//! [`Service`](starl_catalog::service::Service) as with the simulator in WebAssembly.
 
 mod engine;
 mod growing;
@@ -59,7 +58,7 @@ pub fn serve_page(arguments: &PageArguments) -> Result<bool, Failure> {
     serve(page, Content::Page, arguments)
 }
 
-/// Serves a run of what the arguments name, from its start.
+/// Serves a run of the arguments' target, from its start.
 pub fn serve_run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failure> {
     let page = Page::of(arguments.page.folder.as_deref())?;
     let selection = target::read(arguments, registry)?;

@@ -20,7 +20,7 @@ static BUILT_IN: Files = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 /// The first file that a browser asks for.
 const INDEX: &str = "index.html";
 
-/// Where the page's files come from.
+/// The source of the page's files.
 #[derive(Debug)]
 pub enum Page {
     /// The command itself.
@@ -92,7 +92,7 @@ pub async fn answer(State(page): State<Arc<Page>>, request: Request) -> Response
     }
 }
 
-/// By the end of a file's name; browsers are told not to guess.
+/// By the end of a file's name; a header forbids browsers to guess.
 fn content_type(path: &str) -> &'static str {
     match path.rsplit('.').next().unwrap_or_default() {
         "html" => "text/html; charset=utf-8",

@@ -1,4 +1,4 @@
-//! The answer to `/start.json`: the mode of the page, and what it needs for that.
+//! The answer to `/start.json`: the mode of the page, and the data for it.
 
 use serde_json::{Value, json};
 use starl_catalog::Application;

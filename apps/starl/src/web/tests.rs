@@ -54,10 +54,12 @@ fn served() -> (u16, String) {
             port.send((own, format!("starl-{own}={token}")))
                 .expect("it is heard");
             let router = router(Page::BuiltIn(&[]), content, guard);
-            axum::serve(listener, router).await.expect("it goes on");
+            axum::serve(listener, router)
+                .await
+                .expect("the server runs");
         });
     });
-    told.recv().expect("it is told")
+    told.recv().expect("the answer is sent")
 }
 
 fn connect(port: u16, cookie: &str) -> WebSocket<TcpStream> {
@@ -74,7 +76,7 @@ fn connect(port: u16, cookie: &str) -> WebSocket<TcpStream> {
 }
 
 #[test]
-fn a_request_that_panics_is_answered_and_the_server_goes_on() {
+fn a_request_that_panics_is_answered_and_the_server_continues() {
     let (port, cookie) = served();
     for _ in 0..2 {
         let mut socket = connect(port, &cookie);

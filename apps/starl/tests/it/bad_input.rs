@@ -1,5 +1,4 @@
-//! Whatever is wrong with what the user gives, there is one clear message that names it, exit status
-//! 2, and nothing on standard output.
+//! Every bad input gets one clear message that names it, exit status 2, and no standard output.
 
 use crate::support::*;
 use std::path::Path;
@@ -205,7 +204,7 @@ fn bad_parameters_are_refused() {
 }
 
 #[test]
-fn what_is_no_scenario_or_trace_is_refused() {
+fn other_files_are_rejected_as_scenarios_and_traces() {
     let folder = folder("bad_files");
     file(&folder, "empty", "");
     file(&folder, "words", "these are only words");
@@ -248,7 +247,7 @@ fn commands_that_do_not_exist_are_refused() {
 
 #[test]
 #[cfg(unix)]
-fn what_is_not_an_ordinary_file_is_refused() {
+fn special_files_are_rejected() {
     let folder = folder("special_files");
     let pipe = folder.join("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();

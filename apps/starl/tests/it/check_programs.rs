@@ -1,4 +1,4 @@
-//! `starl check` tells of everything that is wrong with programs, and exits with 0, 1 or 2.
+//! `starl check` reports all problems of programs, and exits with 0, 1 or 2.
 
 use crate::support::*;
 
@@ -49,7 +49,7 @@ fn warnings_are_allowed_unless_denied() {
 }
 
 #[test]
-fn a_folder_stands_for_the_programs_in_it() {
+fn a_folder_means_the_programs_in_it() {
     let folder = folder("check_folder");
     let inner = folder.join("all/inner");
     std::fs::create_dir_all(&inner).expect("a folder can be made");
@@ -108,7 +108,7 @@ fn errors_of_a_library_are_shown_in_the_library_and_once() {
 }
 
 #[test]
-fn what_cannot_be_read_is_told_and_the_rest_checked() {
+fn unreadable_files_are_reported_and_the_rest_checked() {
     let folder = folder("check_unreadable");
     file(&folder, "broken.starl", BROKEN);
     std::fs::write(folder.join("latin.starl"), b"program L\n// \xe9\n").expect("it can be written");
@@ -136,9 +136,9 @@ fn what_cannot_be_read_is_told_and_the_rest_checked() {
 #[test]
 fn json_output_has_code_position_and_fix() {
     let folder = folder("check_json");
-    let text = "program Mend\n\ntarget: Point\n\nstep()\n    eff log(\"{}\", tarjet)\n";
-    file(&folder, "mend.starl", text);
-    let output = starl(&folder, &["check", "--json", "mend.starl"]);
+    let text = "program Fix\n\ntarget: Point\n\nstep()\n    eff log(\"{}\", tarjet)\n";
+    file(&folder, "fix.starl", text);
+    let output = starl(&folder, &["check", "--json", "fix.starl"]);
     assert_eq!(status(&output), 1);
     let report = json(&output);
     assert_eq!(report["files"], 1);
@@ -150,9 +150,9 @@ fn json_output_has_code_position_and_fix() {
         .find(|problem| problem["severity"] == "error")
         .expect("there is an error");
     assert_eq!(problem["code"], "E0201");
-    assert_eq!(problem["file"], "mend.starl");
-    let place = serde_json::json!({"offset": 54, "line": 6, "column": 19});
+    assert_eq!(problem["file"], "fix.starl");
+    let place = serde_json::json!({"offset": 53, "line": 6, "column": 19});
     assert_eq!(problem["start"], place);
-    assert_eq!(problem["mend"]["edits"][0]["text"], "target");
-    assert_eq!(problem["mend"]["edits"][0]["start"], place);
+    assert_eq!(problem["fix"]["edits"][0]["text"], "target");
+    assert_eq!(problem["fix"]["edits"][0]["start"], place);
 }

@@ -1,12 +1,12 @@
-//! `--cluster` where the interpreter or what it runs is not as it should be. Runs on real clusters are tested with the
-//! package for Python, in `apps/starl-py/tests/test_cluster_command.py`.
+//! `--cluster` with a missing or wrong interpreter or package. Runs on real clusters are tested with the package for
+//! Python, in `apps/starl-py/tests/test_cluster_command.py`.
 
 use crate::support::{command, folder, names, starl, status, stderr, stdout};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
-/// An executable file in the place of the interpreter.
+/// An executable file in place of the interpreter.
 fn interpreter(folder: &Path, script: &str) -> String {
     let path = folder.join("python");
     fs::write(&path, format!("#!/bin/sh\n{script}\n")).expect("the folder can be written to");

@@ -1,4 +1,4 @@
-//! `starl compare` runs two versions with the same seeds, and tells in what they differ.
+//! `starl compare` runs two versions with the same seeds, and reports the differences.
 
 use crate::support::{self, file, folder, json, starl, status, stderr, stdout};
 

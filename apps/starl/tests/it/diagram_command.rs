@@ -52,7 +52,7 @@ fn a_part_of_a_run_can_be_drawn_as_png() {
 }
 
 #[test]
-fn bad_input_is_told() {
+fn bad_input_is_reported() {
     let folder = folder("diagram_bad_input");
     file(&folder, "small.toml", support::SMALL);
     let cases: [(&[&str], &str); 3] = [

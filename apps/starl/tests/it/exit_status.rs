@@ -1,4 +1,4 @@
-//! The exit status tells scripts what came of a run: 0 the goal was reached, 1 it was not.
+//! The exit status shows scripts the result of a run: 0 the goal was reached, 1 it was not.
 
 use crate::support::*;
 
@@ -21,7 +21,7 @@ fn a_run_that_reaches_its_goal_succeeds() {
 }
 
 #[test]
-fn a_run_whose_time_is_up_does_not() {
+fn a_run_that_times_out_does_not() {
     let folder = folder("exit_timed_out");
     file(&folder, "small.toml", SMALL);
     let output = starl(&folder, &["run", "small.toml", "--duration", "1s"]);

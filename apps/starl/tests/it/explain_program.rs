@@ -78,7 +78,7 @@ fn a_program_with_errors_is_not_drawn() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_with_a_reason() {
+fn other_programs_are_rejected_with_a_reason() {
     let folder = folder("explain_refused");
     file(&folder, "door.starl", DOOR);
     file(&folder, "plain.starl", "program Plain\n");

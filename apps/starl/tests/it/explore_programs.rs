@@ -97,7 +97,7 @@ fn an_example_is_explored_to_the_end() {
 }
 
 #[test]
-fn a_violation_is_kept_and_can_be_gone_again() {
+fn a_violation_is_saved_and_can_be_replayed() {
     let folder = folder("explore_violation");
     let target = polite(&folder);
     let output = explore(&folder, &[&target]);
@@ -114,7 +114,7 @@ fn a_violation_is_kept_and_can_be_gone_again() {
     assert_eq!(status(&drawn), 1, "{}", stderr(&drawn));
     let drawing = std::fs::read_to_string(folder.join("way.svg")).expect("it was drawn");
     assert!(drawing.contains("Polite.exclusion"), "{drawing}");
-    // The file is all that is needed.
+    // No other file is needed.
     std::fs::remove_file(folder.join("polite.starl")).expect("it is there");
     let again = starl(&folder, &["explore", "--replay", kept]);
     assert_eq!(status(&again), 1, "{}", stderr(&again));
@@ -132,7 +132,7 @@ fn a_violation_is_kept_and_can_be_gone_again() {
 }
 
 #[test]
-fn a_bound_that_is_hit_is_no_proof() {
+fn a_reached_bound_is_not_a_proof() {
     let folder = folder("explore_bounds");
     let target = polite(&folder);
     for (option, outcome) in [("--depth", "depth_bound"), ("--most-states", "state_bound")] {
@@ -149,7 +149,7 @@ fn a_bound_that_is_hit_is_no_proof() {
 }
 
 #[test]
-fn an_exploration_that_takes_too_long_says_what_it_has_covered() {
+fn an_exploration_that_takes_too_long_reports_its_coverage() {
     let folder = folder("explore_within");
     let target = polite(&folder);
     let arguments = ["explore", &target, "--within", "1ns"];
@@ -170,7 +170,7 @@ fn an_exploration_that_takes_too_long_says_what_it_has_covered() {
 }
 
 #[test]
-fn what_never_comes_is_noted() {
+fn requests_that_are_never_granted_are_noted() {
     let folder = folder("explore_notes");
     let output = explore(&folder, &["election"]);
     assert_eq!(status(&output), 0, "{}", stderr(&output));
@@ -200,7 +200,7 @@ fn bad_input_is_refused() {
         (&[], "name what to explore"),
         (
             &["--replay", "torn.json"],
-            "torn.json: is no counterexample",
+            "torn.json: is not a counterexample",
         ),
         (&["nothing.toml"], "nothing.toml"),
         (&[&target, "--robots", "3"], "the scenario has 2 robots"),
@@ -220,16 +220,16 @@ fn bad_input_is_refused() {
 }
 
 #[test]
-fn a_way_that_cannot_be_gone_any_more_is_told() {
+fn an_impossible_path_is_reported() {
     let folder = folder("explore_stale");
     let target = polite(&folder);
     let output = explore(&folder, &[&target, "--save", "way.json", "--quiet"]);
     assert_eq!(status(&output), 1);
     let text = std::fs::read_to_string(folder.join("way.json")).expect("it is there");
     // The program has been fixed.
-    let mended = text.replace("asked < time", "asked <= time");
-    assert_ne!(text, mended);
-    file(&folder, "way.json", &mended);
+    let fixed = text.replace("asked < time", "asked <= time");
+    assert_ne!(text, fixed);
+    file(&folder, "way.json", &fixed);
     let output = starl(&folder, &["explore", "--replay", "way.json"]);
     assert_eq!(status(&output), 2, "{}", stdout(&output));
     assert!(stderr(&output).contains("cannot be taken any more"));

@@ -1,5 +1,5 @@
-//! The tutorial of the language says what happens: its steps are done one after the other in an empty
-//! folder, and what the command prints is what the page shows, but for how long it took.
+//! The tutorial of the language is true: its steps are executed in an empty folder, and the output of the command is
+//! that of the page, except for wall times.
 //!
 //! A block of `starl` is written to the page's program, one of `toml` to its faults; a block of `text`
 //! contains commands, each with its output. `BLESS=1 cargo test -p starl --test it first_program`
@@ -54,7 +54,7 @@ fn fits(page: &[&str], printed: &[&str]) -> bool {
 }
 
 #[test]
-fn every_step_does_what_the_page_says() {
+fn every_step_matches_the_page() {
     let bless = std::env::var_os("BLESS").is_some();
     let folder = folder("first_program");
     let before = fs::read_to_string(page()).expect("the tutorial");

@@ -281,7 +281,7 @@ fn a_fleet_finishes_although_a_robot_is_killed() {
     let (text, messages) = (stdout(&output), stderr(&output));
     assert_eq!(status(&output), 0, "{text}{messages}");
     assert!(
-        messages.contains("robot1 has died (signal 9), and is started again"),
+        messages.contains("robot1 has died (signal 9), and is restarted"),
         "{messages}"
     );
     assert!(text.contains("broadcast.integrity   holds"), "{text}");
@@ -376,7 +376,7 @@ fn an_operator_sees_and_stops_a_fleet_and_a_stranger_does_not() {
 }
 
 #[test]
-fn what_is_wrong_with_a_fleet_file_is_said_in_one_message() {
+fn problems_of_a_fleet_file_are_reported_in_one_message() {
     let folder = folder("fleet_bad");
     file(&folder, "race.toml", RACE);
     let cases = [
@@ -444,8 +444,8 @@ fn what_is_wrong_with_a_fleet_file_is_said_in_one_message() {
     );
 }
 
-/// Race, byte for byte the program that the simulator runs, on four processes: two Creates on serial lines, two AR.Drones
-/// on UDP, positions from motion capture, and messages over Zenoh.
+/// Race, byte for byte the program that the simulator runs, on four processes: two Creates on serial lines, two
+/// AR.Drones on UDP, positions from motion capture, and messages over Zenoh.
 #[cfg(feature = "zenoh")]
 #[test]
 fn race_runs_on_emulated_creates_and_drones_over_zenoh() {

@@ -1,4 +1,4 @@
-//! `starl fmt` lays programs out, and never loses one.
+//! `starl fmt` formats programs, and never loses one.
 
 use crate::support::*;
 use std::fs;
@@ -14,7 +14,7 @@ fn content(folder: &Path, name: &str) -> String {
 }
 
 #[test]
-fn a_file_is_laid_out_in_its_place() {
+fn a_file_is_formatted_in_place() {
     let folder = folder("fmt_file");
     file(&folder, "untidy.starl", UNTIDY);
     let output = starl(&folder, &["fmt", "untidy.starl"]);
@@ -27,7 +27,7 @@ fn a_file_is_laid_out_in_its_place() {
 }
 
 #[test]
-fn check_lists_what_would_change_and_changes_nothing() {
+fn check_lists_files_that_would_change_and_changes_nothing() {
     let folder = folder("fmt_check");
     file(&folder, "tidy.starl", TIDY);
     file(&folder, "untidy.starl", UNTIDY);
@@ -52,7 +52,7 @@ fn standard_input_goes_to_standard_output() {
 }
 
 #[test]
-fn a_file_with_errors_in_its_text_stays_as_it_is() {
+fn a_file_with_syntax_errors_is_not_changed() {
     let folder = folder("fmt_broken");
     file(&folder, "broken.starl", BROKEN);
     file(&folder, "untidy.starl", UNTIDY);
@@ -77,7 +77,7 @@ fn broken_standard_input_gives_nothing() {
 
 #[cfg(unix)]
 #[test]
-fn permissions_and_links_stay() {
+fn permissions_and_links_are_kept() {
     use std::os::unix::fs::{PermissionsExt, symlink};
     let folder = folder("fmt_permissions");
     let path = file(&folder, "untidy.starl", UNTIDY);
@@ -94,7 +94,7 @@ fn permissions_and_links_stay() {
 
 #[cfg(unix)]
 #[test]
-fn a_file_that_cannot_be_written_is_told() {
+fn a_file_that_cannot_be_written_is_reported() {
     use std::os::unix::fs::PermissionsExt;
     let folder = folder("fmt_read_only");
     let path = file(&folder, "untidy.starl", UNTIDY);

@@ -1,5 +1,5 @@
-//! Ctrl-C, or a request to end, ends a run as if its time were up: with a summary, and with a trace
-//! that is whole; and a search with what was found.
+//! Ctrl-C, or a request to terminate, ends a run like a timeout: with a summary and a complete trace; and a search with
+//! its findings so far.
 
 #![cfg(unix)]
 
@@ -56,7 +56,7 @@ fn interrupt(test: &str, signal: &str) {
 
 /// Every run of the search goes wrong: the goal is not reached.
 #[test]
-fn an_interrupted_search_tells_what_it_found() {
+fn an_interrupted_search_reports_its_findings() {
     let folder = folder("interrupted_search");
     file(&folder, "short.toml", &SMALL.replacen("30s", "1s", 1));
     let mut search = command(

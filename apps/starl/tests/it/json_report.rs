@@ -36,7 +36,7 @@ fn paths(value: &Value, at: &str, found: &mut BTreeSet<String>) {
 }
 
 #[test]
-fn it_tells_what_came_of_the_run() {
+fn it_has_the_result_of_the_run() {
     let report = report("json_report", &["--seed", "5"]);
     assert_eq!(report["outcome"], "reached");
     assert_eq!(report["seed"], 5);

@@ -100,7 +100,7 @@ fn the_properties_hold_in_calm_and_are_broken_by_loss_and_delay() {
 }
 
 #[test]
-fn what_is_wrong_with_a_network_is_said_before_the_run() {
+fn problems_of_a_network_are_reported_before_the_run() {
     let folder = crossing("learned_wrong");
     let program = fs::read_to_string(folder.join("crossing.starl")).expect("it is there");
     let cut = fs::read(folder.join("crossing.onnx")).expect("it is there");

@@ -1,4 +1,4 @@
-//! `starl list` shows what there is to run, and to run it with.
+//! `starl list` shows examples, programs, models and planners.
 
 use crate::support::*;
 
@@ -24,7 +24,7 @@ fn it_names_examples_models_and_planners() {
 }
 
 #[test]
-fn as_json_it_tells_each_models_body_speed_and_commands() {
+fn as_json_it_has_each_models_body_speed_and_commands() {
     let listing = json(&starl(&folder("list_json"), &["list", "--json"]));
     let models = listing["models"].as_array().expect("models are a list");
     let create = models

@@ -1,4 +1,4 @@
-//! `starl lsp` serves an editor: what it shows, and that nothing the editor sends ends it.
+//! `starl lsp` serves an editor, and no message from the editor ends it.
 
 use crate::lsp_support::*;
 use serde_json::{Value, json};
@@ -76,7 +76,7 @@ fn an_exit_without_a_shutdown_is_a_failure() {
 }
 
 #[test]
-fn problems_change_as_one_types() {
+fn problems_are_updated_while_typing() {
     let mut editor = opened(RACE);
     assert_eq!(editor.problems(URI, 1), Vec::<Value>::new());
     // `loc = pick` becomes `loc = pack`.
@@ -110,7 +110,7 @@ fn problems_change_as_one_types() {
 }
 
 #[test]
-fn a_problem_comes_with_its_fix() {
+fn a_problem_has_its_fix() {
     let text = RACE.replace("loc = pick\n", "loc = pack\n");
     let mut editor = opened(&text);
     let problems = editor.problems(URI, 1);
@@ -175,7 +175,7 @@ fn columns_count_units_of_utf_16() {
 }
 
 #[test]
-fn what_may_be_typed_is_suggested() {
+fn completions_are_suggested() {
     let (text, place) = cursor(&RACE.replace("index += 1", "motion.$0"));
     let mut editor = opened(&text);
     let list = editor
@@ -204,7 +204,7 @@ fn what_may_be_typed_is_suggested() {
 }
 
 #[test]
-fn a_call_shows_what_it_takes() {
+fn a_call_shows_its_parameters() {
     let (text, place) = cursor(&RACE.replace("index += 1", "motion.reach_avoid(position, $0)"));
     let mut editor = opened(&text);
     let help = editor
@@ -244,7 +244,7 @@ fn a_name_leads_to_its_declaration_and_its_other_uses() {
 }
 
 #[test]
-fn what_every_program_has_can_be_read() {
+fn built_in_libraries_can_be_read() {
     let (text, place) = cursor("program P\nside: Si$0de? = bumped\n");
     let mut editor = opened(&text);
     let found = editor
@@ -293,7 +293,7 @@ fn a_name_is_changed_everywhere_or_not_at_all() {
 }
 
 #[test]
-fn a_text_is_laid_out() {
+fn a_text_is_formatted() {
     let untidy = RACE
         .replace("    pre", "  pre")
         .replace("    eff\n", "  eff\n")

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// A problem: its place in lines and UTF-16 units from 0, its severity, its number, and all that it says.
+/// A problem: its place in lines and UTF-16 units from 0, its severity, its number, and everything that it says.
 type Problem = ((u64, u64), (u64, u64), u64, String, String);
 
 /// Every program in the pages of errors: those with the error, and those without.
@@ -62,7 +62,7 @@ fn shown_by_page(text: &str, found: &Diagnostic) -> Problem {
 }
 
 #[test]
-fn check_gives_what_the_language_server_tells() {
+fn check_and_the_language_server_report_the_same() {
     let mut editor = Editor::ready();
     let mut codes = BTreeSet::new();
     for (number, text) in programs().iter().enumerate() {

@@ -88,7 +88,7 @@ fn a_file_that_changes_on_disk_counts_once_the_editor_says_so() {
 }
 
 #[test]
-fn the_uses_of_what_a_library_declares_are_found_in_all_programs() {
+fn uses_of_a_librarys_declarations_are_found_in_all_programs() {
     let mut place = place("lsp_uses");
     let (program, tools) = (name_of(&place.program), name_of(&place.tools));
     place.editor.open(&tools, TOOLS);
@@ -139,7 +139,7 @@ fn a_library_and_its_programs_are_renamed_together() {
 }
 
 #[test]
-fn what_the_standard_library_declares_keeps_its_name() {
+fn names_of_the_standard_library_cannot_be_renamed() {
     let mut place = place("lsp_standard");
     let program = name_of(&place.program);
     let text = "program P\nimport geometry\nx: Point = geometry.midpoint(position, position)\n";
@@ -179,7 +179,7 @@ fn libraries_beside_are_suggested() {
 }
 
 #[test]
-fn a_library_that_comes_later_is_found() {
+fn a_library_that_is_added_later_is_found() {
     let mut place = place("lsp_later");
     let program = name_of(&place.program);
     let later = place.tools.with_file_name("later.starl");

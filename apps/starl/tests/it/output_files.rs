@@ -24,7 +24,7 @@ fn a_plot_is_a_picture_of_the_kind_asked_for() {
 }
 
 #[test]
-fn a_run_that_cannot_start_leaves_what_was_there() {
+fn a_run_that_cannot_start_keeps_existing_files() {
     let folder = folder("plot_kept");
     file(&folder, "small.toml", SMALL);
     file(&folder, "a.svg", "a picture of before");
@@ -61,7 +61,7 @@ fn two_outputs_do_not_share_a_file() {
 }
 
 #[test]
-fn what_a_run_reads_is_not_overwritten() {
+fn inputs_of_a_run_are_not_overwritten() {
     let folder = folder("output_reads");
     let scenario = SMALL.replace("[world]", "[world]\nfiles = [\"some.wpt\"]");
     file(&folder, "small.toml", &scenario);
@@ -83,7 +83,7 @@ fn what_a_run_reads_is_not_overwritten() {
 }
 
 #[test]
-fn a_file_that_may_not_be_written_stays() {
+fn a_read_only_file_is_kept() {
     let folder = folder("output_read_only");
     let path = file(&folder, "a.mcap", "a trace of before");
     let mut permissions = fs::metadata(&path).expect("it is there").permissions();
@@ -98,7 +98,7 @@ fn a_file_that_may_not_be_written_stays() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_stays_a_link() {
+fn a_link_remains_a_link() {
     let folder = folder("output_link");
     file(&folder, "real.svg", "a picture of before");
     std::os::unix::fs::symlink("real.svg", folder.join("a.svg")).expect("links can be made");
@@ -112,7 +112,7 @@ fn a_link_stays_a_link() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn output_that_cannot_be_written_is_told() {
+fn output_that_cannot_be_written_is_reported() {
     let folder = folder("output_full");
     for arguments in [&["run", "race", "--json"][..], &["list"]] {
         let full = fs::File::options().write(true).open("/dev/full");
@@ -131,7 +131,7 @@ fn output_that_cannot_be_written_is_told() {
 
 #[cfg(unix)]
 #[test]
-fn a_reader_that_has_gone_is_no_error() {
+fn a_closed_reader_is_not_an_error() {
     use std::process::Stdio;
     let folder = folder("output_closed");
     let mut run = command(&folder, &["run", "race", "--duration", "1s"])

@@ -57,7 +57,7 @@ fn race() -> String {
 }
 
 #[test]
-fn every_robot_does_again_what_it_did() {
+fn every_robot_replays_identically() {
     let folder = recorded("robot_identical", &["--inputs"]);
     for robot in ROBOTS {
         let output = replay(&folder, &[robot]);
@@ -108,7 +108,7 @@ fn a_trace_without_inputs_says_how_to_record_them() {
 }
 
 #[test]
-fn a_robot_that_is_not_there_is_told_with_those_that_are() {
+fn an_unknown_robot_is_reported_with_the_known_ones() {
     let folder = recorded("robot_unknown", &["--inputs"]);
     let output = replay(&folder, &["iRobot7"]);
     assert_eq!((status(&output), stdout(&output)), (2, String::new()));
@@ -119,7 +119,7 @@ fn a_robot_that_is_not_there_is_told_with_those_that_are() {
 }
 
 #[test]
-fn a_trace_that_ends_in_the_middle_is_replayed_as_far_as_it_goes() {
+fn an_incomplete_trace_is_replayed_to_its_end() {
     let folder = recorded("robot_cut", &["--inputs"]);
     let mut whole = fs::read(folder.join("a.mcap")).expect("it was written");
     whole.truncate(whole.len() - 1_000);

@@ -16,7 +16,7 @@ fn recorded(name: &str, arguments: &[&str]) -> std::path::PathBuf {
     all.extend_from_slice(arguments);
     let output = starl(&folder, &all);
     assert_eq!(stderr(&output), "");
-    // A replay needs nothing but the trace.
+    // A replay needs only the trace.
     fs::remove_file(folder.join("small.toml")).expect("it was written before");
     folder
 }
@@ -111,7 +111,7 @@ fn a_changed_record_is_found() {
 }
 
 #[test]
-fn a_truncated_trace_is_replayed_as_far_as_it_goes() {
+fn a_truncated_trace_is_replayed_to_its_end() {
     let folder = recorded("replay_truncated", &[]);
     let whole = fs::read(folder.join("a.mcap")).expect("it was written");
     let mut records = Vec::new();
@@ -176,7 +176,7 @@ fn a_trace_cut_before_its_records_is_refused() {
 }
 
 #[test]
-fn a_flipped_bit_anywhere_is_told_without_panic() {
+fn a_flipped_bit_anywhere_is_reported_without_a_panic() {
     let folder = recorded("replay_flipped", &["--duration", "2s"]);
     let whole = fs::read(folder.join("a.mcap")).expect("it was written");
     for place in (0..whole.len()).step_by(whole.len() / 40) {

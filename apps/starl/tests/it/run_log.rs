@@ -36,7 +36,7 @@ fn shown(test: &str, options: &[&str]) -> (i32, String) {
 }
 
 #[test]
-fn lines_come_with_time_and_robot() {
+fn lines_have_time_and_robot() {
     let (_, text) = shown("log_lines", &["--log"]);
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 5, "{text}");
@@ -69,11 +69,14 @@ fn levels_and_robots_are_chosen() {
 }
 
 #[test]
-fn a_robot_that_there_is_not_is_refused() {
+fn an_unknown_robot_is_refused() {
     let (status, text) = shown("log_unknown", &["--log", "--log-robots", "create7"]);
     assert_eq!(
         (status, text.as_str()),
-        (2, "error: --log-robots: there is no robot create7\n")
+        (
+            2,
+            "error: --log-robots: there is no robot create7; did you mean `create0`?\n"
+        )
     );
     assert_eq!(shown("log_alone", &["--log-robots", "create0"]).0, 2);
     assert_eq!(shown("log_level", &["--log=loud"]).0, 2);

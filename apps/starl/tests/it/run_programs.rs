@@ -1,9 +1,9 @@
-//! `starl run` runs programs in the StarL language: by themselves, in a scenario that names them, or in
-//! another one; and tells what is wrong with them, before the run or in it.
+//! `starl run` runs programs in the StarL language: by themselves, in a scenario that names them, or in another one;
+//! and reports their problems before or during the run.
 
 use crate::support::*;
 
-/// Every robot drives along the x axis for as long as it is told to.
+/// Every robot drives along the x axis for as long as its program says.
 const DRIVE: &str = "\
 /// Drives.
 program Drive
@@ -233,7 +233,7 @@ fn a_run_time_error_names_robot_line_and_reason() {
     );
     assert_eq!(status(&output), 1);
     let text = stdout(&output);
-    // The robot at y = 1 divides by zero, or by -1 if it is a little below; the others go on.
+    // The robot at y = 1 divides by zero, or by -1 if it is a little below; the others continue.
     has(
         &text,
         &[
@@ -257,7 +257,7 @@ fn a_run_time_error_names_robot_line_and_reason() {
 }
 
 #[test]
-fn a_property_that_does_not_hold_is_told_with_the_state() {
+fn a_violated_property_is_reported_with_the_state() {
     let folder = lone("program_violated");
     let output = starl(
         &folder,
@@ -281,7 +281,7 @@ fn a_property_that_does_not_hold_is_told_with_the_state() {
 }
 
 #[test]
-fn what_cannot_be_run_is_refused() {
+fn other_files_are_rejected() {
     let folder = lone("program_refused");
     file(
         &folder,

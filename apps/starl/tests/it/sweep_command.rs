@@ -65,7 +65,7 @@ fn tables_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn a_row_is_what_the_run_command_gives() {
+fn a_row_equals_the_result_of_the_run_command() {
     let folder = prepared("sweep_rows");
     let rows = rows(&table(&folder, "rows.jsonl", &[]));
     assert_eq!(rows.len(), 16);
@@ -168,7 +168,7 @@ fn stop(folder: &Path, signal: &str) -> std::process::Output {
 
 #[cfg(unix)]
 #[test]
-fn a_sweep_that_is_killed_goes_on_where_it_was() {
+fn a_killed_sweep_continues_where_it_was() {
     let folder = prepared("sweep_killed");
     let path = folder.join("stopped.parquet.journal");
     let mut known = BTreeMap::new();
@@ -201,7 +201,7 @@ fn a_sweep_that_is_killed_goes_on_where_it_was() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_sweep_says_how_to_go_on() {
+fn an_interrupted_sweep_says_how_to_continue() {
     let folder = prepared("sweep_interrupted");
     let output = stop(&folder, "-INT");
     assert_eq!(status(&output), 1, "{}", stderr(&output));
@@ -211,7 +211,7 @@ fn an_interrupted_sweep_says_how_to_go_on() {
         text.contains(&format!("interrupted after {done} of 240 runs")),
         "{text}"
     );
-    let (_, again) = text.split_once("to go on: ").expect("how to go on");
+    let (_, again) = text.split_once("to continue: ").expect("how to continue");
     assert_eq!(names(&folder), ["small.toml", "stopped.parquet.journal"]);
     let words: Vec<&str> = again.split_whitespace().skip(1).collect();
     assert_eq!(status(&starl(&folder, &words)), 0);

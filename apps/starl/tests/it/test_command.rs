@@ -60,7 +60,7 @@ fn an_example_that_is_right_passes() {
 }
 
 #[test]
-fn what_is_found_does_not_depend_on_the_number_of_threads() {
+fn findings_do_not_depend_on_the_number_of_threads() {
     let folder = folder("test_threads");
     file(&folder, "small.toml", &short(support::SMALL));
     let on = |threads: &str| {
@@ -175,7 +175,7 @@ fn an_invariant_of_a_program_is_found_and_shrunk() {
 }
 
 #[test]
-fn a_program_of_an_example_is_named_so_that_it_is_found_anywhere() {
+fn a_saved_scenario_finds_the_program_of_an_example_from_anywhere() {
     let folder = folder("test_example");
     let arguments = [
         "test",
@@ -200,7 +200,7 @@ fn a_program_of_an_example_is_named_so_that_it_is_found_anywhere() {
 }
 
 #[test]
-fn bad_input_is_told() {
+fn bad_input_is_reported() {
     let folder = folder("test_bad_input");
     file(&folder, "small.toml", support::SMALL);
     let cases: [(&[&str], &str); 4] = [

@@ -1,4 +1,4 @@
-//! However a run ends, its trace is there under its own name, and can be read as far as it goes.
+//! However a run ends, its trace exists under its final name, and its written part is readable.
 
 #![cfg(unix)]
 
@@ -139,7 +139,7 @@ fn a_disk_that_is_full() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_place_that_takes_nothing_is_told() {
+fn an_unwritable_place_is_reported() {
     let folder = folder("disk_full_device");
     let output = starl(&folder, &["run", "race", "--quiet", "--trace", "/dev/full"]);
     assert_eq!(status(&output), 2);
@@ -150,7 +150,7 @@ fn a_place_that_takes_nothing_is_told() {
     );
 }
 
-/// How long a run takes makes no difference to its trace: what is saved on the way is overwritten.
+/// The trace does not depend on how long the run takes: what is saved on the way is overwritten.
 #[test]
 fn a_trace_that_was_saved_on_the_way_is_the_same() {
     let folder = folder("saved_on_the_way");

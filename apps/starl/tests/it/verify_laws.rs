@@ -169,7 +169,7 @@ fn records_out_of_order_are_found() {
 }
 
 #[test]
-fn datagrams_that_come_twice_or_from_nowhere_are_found() {
+fn duplicate_and_unsent_datagrams_are_found() {
     let found_twice = found("laws_twice", SCENARIO, |records| {
         let place = deliveries(records)[0];
         records.insert(place, records[place].clone());

@@ -161,7 +161,7 @@ fn a_violation_is_shown_with_its_place_and_makes_the_status_1() {
 }
 
 #[test]
-fn what_is_excused_is_counted() {
+fn excused_violations_are_counted() {
     let folder = folder("verify_excused");
     let crash = record(3.0, 0, Event::Fault(Fault::Crash));
     let records = [acquire(2.0, 1), crash];
@@ -174,7 +174,7 @@ fn what_is_excused_is_counted() {
 }
 
 #[test]
-fn a_trace_that_ends_early_is_judged_as_far_as_it_goes() {
+fn an_incomplete_trace_is_judged_to_its_end() {
     let folder = folder("verify_early");
     let pose = |at| record(at, 0, Event::Moved(Pose::level(Point::ZERO, 0.0)));
     let records = [
@@ -203,7 +203,7 @@ fn a_trace_that_ends_early_is_judged_as_far_as_it_goes() {
 }
 
 #[test]
-fn a_host_says_what_it_is_judged_by() {
+fn a_host_can_set_the_bounds_of_its_properties() {
     let folder = folder("verify_setting");
     let records = [acquire(2.0, 1)];
     let setting =

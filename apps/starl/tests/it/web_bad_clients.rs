@@ -1,4 +1,4 @@
-//! A client of the simulations that comes from elsewhere, sends nonsense or too much, or goes away.
+//! Bad clients of the server: from another origin, with invalid or too large requests, or with closed connections.
 
 use crate::support::*;
 use crate::web_support::*;
@@ -67,7 +67,7 @@ fn messages_that_are_too_long_are_refused() {
     let refused = engine.ask(&json!({ "check": { "files": { "a.starl": long } } }));
     let message = refused["error"]["message"].as_str().expect("a message");
     assert!(message.contains("at most 16777216"), "{message}");
-    // The connection goes on.
+    // The connection continues.
     assert_eq!(
         engine.ok(&json!({ "status": { "simulation": 0 } }))["now"],
         0.0
@@ -129,7 +129,7 @@ fn is_busy(process: u32) -> bool {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_page_that_goes_away_ends_what_it_has_asked_for() {
+fn a_closed_page_cancels_its_requests() {
     let folder = folder("open_vanish");
     endless(&folder);
     let server = Server::start(&folder, &["run", "endless.toml", "--open"]);

@@ -39,7 +39,7 @@ fn a_run_in_the_browser_has_the_digest_of_the_command() {
 }
 
 #[test]
-fn the_page_is_told_what_is_run_and_from_which_files() {
+fn the_page_gets_the_target_and_its_files() {
     let folder = folder("open_start");
     file(&folder, "small.toml", SMALL);
     let server = Server::start(&folder, &["run", "small.toml", "--seed", "9", "--open"]);
@@ -76,7 +76,7 @@ fn the_page_is_told_what_is_run_and_from_which_files() {
 }
 
 #[test]
-fn poses_and_frames_come_as_numbers() {
+fn poses_and_frames_are_numbers() {
     let folder = folder("open_numbers");
     file(&folder, "small.toml", SMALL);
     let server = Server::start(&folder, &["run", "small.toml", "--open"]);

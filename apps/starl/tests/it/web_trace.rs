@@ -1,4 +1,4 @@
-//! `starl view` serves a trace in parts, and refuses what is no trace.
+//! `starl view` serves a trace in parts, and rejects other files.
 
 use crate::support::*;
 use crate::web_support::*;

@@ -82,7 +82,7 @@ events! {
             /// The participants.
             participants: Vec<RobotId>,
         },
-        /// The robot stands for election.
+        /// The robot is a candidate.
         Elect = "elect",
         /// It stands no longer.
         Resign = "resign",
@@ -137,7 +137,7 @@ events! {
             /// Which.
             resource: Arc<str>,
         },
-        /// With quorums and leases: it knows what it has granted others before, and grants from now on.
+        /// With quorums and leases: it knows its earlier grants to others, and grants from now on.
         Ready = "ready" {
             /// How many robots take part.
             participants: u32,
@@ -152,17 +152,17 @@ events! {
 events! {
     /// Commands to a Barrier, and their results.
     BarrierEvent {
-        /// The robot has come.
+        /// The robot has arrived.
         Arrive = "arrive" {
             /// All that have to.
             participants: Vec<RobotId>,
         },
-        /// It knows to which generation it has come.
+        /// It knows the generation at which it has arrived.
         Wait = "wait" {
             /// Which.
             generation: u64,
         },
-        /// All have come, and it goes on.
+        /// All robots have arrived, and it continues.
         Pass = "pass" {
             /// To which generation.
             generation: u64,
@@ -177,7 +177,7 @@ words! {
     Suspicion {
         /// It was not heard for too long.
         Silence = "silence",
-        /// It has started again, and knows nothing of what was before.
+        /// It has restarted without its earlier state.
         Restart = "restart",
     }
 }

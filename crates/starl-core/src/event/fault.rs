@@ -1,18 +1,18 @@
-//! The faults that traces tell of.
+//! The faults that traces record.
 
 use super::Name;
 use core::fmt;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A fault that set in, or was healed. A partition, in both directions or one, and its end are the network's; all others
-/// are a robot's.
+/// A fault that set in, or was healed. A partition, in both directions or one, and its end are the network's; all
+/// others are a robot's.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The robot is down.
     Crash,
-    /// The robot's storage lost all that it held, at a crash.
+    /// A crash erased the robot's storage.
     StorageLost,
-    /// The robot starts again, and knows of what was before only what its storage holds.
+    /// The robot restarts, with no state except that in its storage.
     Restart,
     /// The network falls into parts, which may have been others before.
     Partition,
@@ -22,7 +22,7 @@ pub enum Fault {
     Heal,
     /// The robot's motors do not answer.
     StuckMotor,
-    /// The robot's sensors and its positioning show what they showed last.
+    /// The robot's sensors and positioning repeat their last readings.
     FrozenSensor,
     /// Motors, sensors and positioning work again.
     Repair,

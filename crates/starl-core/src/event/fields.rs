@@ -1,7 +1,6 @@
-//! How the fields of typed events are shown by name, and read back.
+//! Encodes the fields of typed events by name, and decodes them.
 //!
-//! Invariant: what is shown reads back as the same, and what does not read back exactly is not taken for the
-//! typed event at all.
+//! Invariant: an encoded event decodes to the same event, and fields that do not decode exactly are not a typed event.
 
 use super::{Name, Value, ValueRef, ValueRefs};
 use crate::geometry::{Area, Obstacle, Point};
@@ -15,7 +14,7 @@ pub trait Field: Sized {
     /// Adds the field's value; of a group of fields the values of all.
     fn show<'a>(&'a self, name: &'static str, shown: &mut ValueRefs<'a>);
 
-    /// Reads the field; none if what comes next is not one.
+    /// Reads the field; none if the next value is not such a field.
     fn read(name: &str, reader: &mut Reader<'_>) -> Option<Self>;
 }
 
@@ -85,7 +84,7 @@ plain! {
     bool: Bool, field => *field, value => Some(*value);
     i64: Int, field => *field, value => Some(*value);
     u32: Int, field => i64::from(*field), value => u32::try_from(*value).ok();
-    // Traces have signed numbers only; these are told apart as well as unsigned ones.
+    // Traces have signed numbers only; these are as distinct as unsigned ones.
     u64: Int, field => *field as i64, value => Some(*value as u64);
     f64: Float, field => *field, value => Some(*value);
     Arc<str>: Text, field => field, value => Some(Arc::from(&**value));

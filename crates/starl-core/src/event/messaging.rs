@@ -10,7 +10,7 @@ words! {
     Order {
         /// Each sender's in the order in which they were sent.
         Fifo = "fifo",
-        /// A message after all that its sender had sent or received when it sent it.
+        /// A message is delivered after all messages that its sender had sent or received before it.
         Causal = "causal",
         /// The same order on all robots.
         Total = "total",
@@ -24,7 +24,7 @@ words! {
         Corrupt = "corrupt",
         /// There is a later group.
         Obsolete = "obsolete",
-        /// Too many of its members are gone.
+        /// Too many of its members have failed.
         Lost = "lost",
     }
 }
@@ -101,21 +101,21 @@ events! {
             /// The order that it is promised; none where it has none.
             order: Option<Order>,
         },
-        /// A message came after one that was to come after it. It is not handed out.
+        /// A message arrived after one that it should precede. It is not delivered.
         Late = "late" {
             /// The sender.
             from: RobotId,
             /// Which of its messages.
             message: MessageNumber,
         },
-        /// A message that is to come before another one is not waited for any longer.
+        /// The robot stops waiting for a message that should precede another.
         PassOver = "pass_over" {
             /// The sender.
             from: RobotId,
             /// Which of its messages.
             message: MessageNumber,
         },
-        /// In total order: the robot comes into a group.
+        /// In total order: the robot enters a group.
         Join = "join" {
             /// Counts the groups that there were.
             group: u32,
@@ -130,7 +130,7 @@ events! {
             /// Counts the leaders.
             term: u32,
         },
-        /// In total order: others may have been handed messages that this robot will not be.
+        /// In total order: other robots may have delivered messages that this robot will not deliver.
         Gap = "gap",
         /// In total order: the robot has not heard of a majority for long.
         Unavailable = "unavailable",
@@ -151,7 +151,7 @@ events! {
             /// Where its receivers are.
             area: Box<Area>,
         },
-        /// A message came to a robot that is not in its area. It is not handed out.
+        /// A message arrived at a robot outside its area. It is not delivered.
         Outside = "outside" {
             /// The sender.
             from: RobotId,

@@ -112,7 +112,7 @@ pub enum Event {
     Discovered(Obstacle),
     /// The program has reached its goal.
     Finished,
-    /// The program cannot go on.
+    /// The program cannot continue.
     Failed(Name),
     /// A property does not hold.
     Violated {
@@ -121,7 +121,7 @@ pub enum Event {
         /// How.
         text: Name,
     },
-    /// The run is steered from outside. Faults of a schedule are told of by [`Event::Fault`] alone.
+    /// The run is steered from outside. Scheduled faults are recorded only as [`Event::Fault`].
     Intervention(Box<crate::Intervention>),
     /// The robot took hold of a thing, by its index among the world's things.
     Took(u32),
@@ -141,7 +141,7 @@ pub enum DropReason {
     /// Lost at random.
     Loss,
     /// The receiver is out of radio range or of sight, or does not exist. Receivers out of range of a
-    /// message to all are not told of.
+    /// message to all are not recorded.
     Range,
     /// Sender and receiver are in different parts of a partition.
     Partition,

@@ -4,7 +4,7 @@ use crate::geometry::Point;
 use crate::motion::{Obstacles, Path};
 
 words! {
-    /// Why a path is of no use, or none is to be had.
+    /// The reason why a path is unusable, or was not found.
     Trouble {
         /// An obstacle was found on the path.
         Obstacle = "obstacle on the path",
@@ -57,7 +57,7 @@ events! {
             /// Where the robot believes to be.
             position: Point,
         },
-        /// There is no way to the target.
+        /// There is no path to the target.
         GiveUp = "give_up" {
             /// Why.
             reason: Trouble,

@@ -130,8 +130,8 @@ impl PrimitiveEvent {
     }
 }
 
-/// The form of [`Event::Primitive`](super::Event::Primitive) in encodings: by names, whatever its type. Digests
-/// are of this form.
+/// The form of [`Event::Primitive`](super::Event::Primitive) in encodings: by names, independent of its type. Digests
+/// are computed from this form.
 pub(super) mod wire {
     use super::{Fields, Name, PrimitiveEvent};
     use crate::Port;

@@ -1,4 +1,4 @@
-//! The events of SharedMemory and Register. Values are told by their hashes.
+//! The events of SharedMemory and Register. Values are represented by their hashes.
 
 use crate::{RobotId, Time};
 use alloc::sync::Arc;
@@ -47,12 +47,12 @@ events! {
             /// The write.
             written: Written,
         },
-        /// This robot writes what it shows once more, since a write of an earlier life of its own has come.
+        /// This robot writes its value again, because a write of its own earlier life has arrived.
         WriteAgain = "write_again" {
             /// The write.
             written: Written,
         },
-        /// This robot comes to show what another one wrote.
+        /// This robot shows the write of another robot from now on.
         Update = "update" {
             /// The write of that robot.
             written: Written,
@@ -83,7 +83,7 @@ events! {
             /// Which operation it is.
             operation: Operation,
         },
-        /// It begins to write, whatever the register holds.
+        /// It begins a write that does not depend on the register's value.
         Write = "write" {
             /// Which operation it is.
             operation: Operation,
@@ -95,7 +95,7 @@ events! {
             /// Which operation it is.
             operation: Operation,
         },
-        /// It begins to write what it has claimed.
+        /// It begins to write a register that it has claimed.
         Update = "update" {
             /// Which operation it is.
             operation: Operation,
@@ -130,7 +130,7 @@ events! {
             /// Which.
             operation: Operation,
         },
-        /// An operation waits, as too few answer.
+        /// An operation waits because too few robots answer.
         NoQuorum = "no_quorum" {
             /// Which.
             operation: Operation,

@@ -72,7 +72,7 @@ pub enum ValueRef<'a> {
     Area(&'a Area),
 }
 
-/// The details of an event by name, in order. No event of ours has more than are held in place.
+/// The details of an event by name, in order. None of our events has more than are stored inline.
 pub type ValueRefs<'a> = SmallVec<[(&'a str, ValueRef<'a>); 8]>;
 
 impl Value {

@@ -1,7 +1,7 @@
 //! A uniform grid over the floor plane whose rim reaches outwards without end.
 //!
-//! Invariant: a greater coordinate never has a lesser cell, so things that overlap share a cell however
-//! their coordinates were rounded.
+//! Invariant: a greater coordinate never has a smaller cell, so bodies that overlap share a cell, independent of
+//! rounding.
 
 use super::segment::{greater, lesser};
 use super::{Bounds, Point};
@@ -152,8 +152,8 @@ impl Grid {
     }
 }
 
-/// Where the bulk of these numbers starts and how far it extends: all but the first and last
-/// sixteenth, and an eighth more either way if there are any, so that outliers do not spread the grid.
+/// Where the bulk of these numbers starts and how far it extends: all except the first and
+/// last sixteenth, and an eighth more either way if there are any, so that outliers do not spread the grid.
 fn bulk(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     let mut numbers: Vec<f64> = numbers.filter(|number| number.is_finite()).collect();
     if numbers.is_empty() {

@@ -1,4 +1,4 @@
-//! Which obstacles are near: a static uniform grid over the floor plane.
+//! An index of obstacles by position: a static uniform grid over the floor plane.
 //!
 //! The grid covers the bulk of the obstacles' centres; cells at its rim reach outwards without end, so
 //! every place belongs to a cell whatever its coordinates. A cell is as wide as the spacing of
@@ -119,9 +119,9 @@ impl ObstacleIndex {
         ControlFlow::Continue(())
     }
 
-    /// Calls `visit` once for every obstacle whose bounds, moved outwards by `margin` metres, may meet
-    /// the segment from `a` to `b`, until it breaks: all of those, and few others. Of a long slanting
-    /// segment this looks only at the cells along it, not at all those of its bounds.
+    /// Calls `visit` once for every obstacle whose bounds, moved outwards by `margin` metres, may meet the segment from
+    /// `a` to `b`, until it breaks: all of those, and few others. For a long slanting segment it visits only the cells
+    /// along it, not all cells of its bounds.
     pub fn for_each_near_segment<B>(
         &self,
         a: Point,

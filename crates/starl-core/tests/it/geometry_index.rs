@@ -78,7 +78,7 @@ fn every_obstacle_near_is_found_once() {
 }
 
 #[test]
-fn paths_bodies_and_rays_meet_what_they_would_without_an_index() {
+fn paths_bodies_and_rays_get_the_same_results_without_an_index() {
     for seed in 0..300 {
         let mut cases = Cases::new(seed);
         let (obstacles, reach) = world(&mut cases);

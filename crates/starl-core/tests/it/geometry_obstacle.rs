@@ -94,7 +94,7 @@ fn distance_changes_no_faster_than_the_point_moves() {
 }
 
 #[test]
-fn bounds_hold_the_obstacle_and_no_more() {
+fn bounds_are_tight() {
     for seed in 0..CASES {
         let mut cases = Cases::new(seed);
         let obstacle = cases.obstacle();
@@ -134,14 +134,14 @@ fn a_body_may_stand_on_an_obstacle_but_not_in_it() {
     assert_eq!(slab.body_gap(a, 0.2, 0.3), 0.0);
     assert!(!slab.blocks_body(a, b, 0.2, 0.3));
     assert!(slab.blocks_body(a, b.at_height(-0.1), 0.2, 0.3));
-    // A mark of no thickness on the floor stops even a robot of no height.
+    // A mark on the floor stops a robot even if both have the height 0.
     let mark = Obstacle::cuboid(Point::ZERO, Point::planar(1.0, 1.0));
     assert!(mark.body_gap(Point::planar(0.5, 0.5), 0.2, 0.0) < 0.0);
     assert!(mark.blocks_body(a, b, 0.2, 0.0));
 }
 
 #[test]
-fn impossible_obstacles_are_told_apart() {
+fn each_kind_of_invalid_obstacle_is_reported() {
     let (p, nan) = (Point::ZERO, Point::planar(f64::NAN, 0.0));
     assert!(Obstacle::circle(p, 0.0).is_valid());
     assert!(!Obstacle::circle(p, -1.0).is_valid());

@@ -194,7 +194,7 @@ fn a_path_over_an_obstacle_is_judged_in_space() {
     };
     assert!(over(0.5, 0.0) && over(1.0, 0.0) && !over(1.1, 0.0));
     assert!(over(1.1, 0.2) && !over(1.1, 0.05));
-    // Past the rim, 0.3 m aside and 0.4 m above: 0.5 m away.
+    // Past the rim, 0.3 m to the side and 0.4 m above: 0.5 m away.
     let (a, b) = (Point::new(1.3, -4.0, 1.4), Point::new(1.3, 4.0, 1.4));
     assert!(low.blocks_segment(a, b, 0.501) && !low.blocks_segment(a, b, 0.499));
     // Slanting down beside the rim.

@@ -220,7 +220,7 @@ fn sign_of_the_distance_agrees_with_contains() {
 }
 
 #[test]
-fn what_is_stored_is_checked_when_read_back() {
+fn a_stored_polygon_is_checked_when_it_is_read() {
     let bytes = postcard::to_allocvec(&square()).unwrap();
     assert_eq!(
         postcard::from_bytes::<ConvexPolygon>(&bytes).unwrap(),

@@ -1,10 +1,10 @@
-//! A random stream that is stored and read back goes on where it was.
+//! A random stream that is stored and read back continues where it was.
 
 use starl_core::Random;
 use starl_core::message::{decode, encode};
 
 #[test]
-fn a_stored_stream_goes_on_where_it_was() {
+fn a_stored_stream_continues_where_it_was() {
     let mut random = Random::keyed(7, &[1, 2]);
     for draws in 0..40u32 {
         match draws % 4 {

@@ -33,7 +33,7 @@ fn a_timer_is_read_back() {
 }
 
 #[test]
-fn tokens_of_no_variant_are_unknown() {
+fn tokens_without_a_variant_are_unknown() {
     let unknown = [
         Token::new(0, 256), // Resend holds a byte
         Token::new(1, 1),   // Look holds nothing

@@ -319,7 +319,7 @@ fn encodings_are_of_names_and_values() {
 }
 
 #[test]
-fn what_does_not_fit_an_event_of_ours_stays_as_it_is() {
+fn records_that_are_not_typed_events_stay_as_they_are() {
     let missing = fields(&[("resource", "door".into()), ("drift", "much".into())]);
     let more = fields(&[("resource", "door".into()), ("colour", "red".into())]);
     let other_order = fields(&[("to", RobotId(1).into()), ("number", 1u32.into())]);

@@ -1,15 +1,15 @@
 //! Rewards, ends and measures of a task, as expressions of the StarL language.
 //!
-//! An expression is compiled once. After each action it is evaluated for each robot of each environment, on what the world
-//! knows of the robots: no robot depends on another environment. `previous` is what a robot's quantities were when they
-//! were evaluated before.
+//! An expression is compiled once. After each action it is evaluated for each robot of each environment, on the true
+//! quantities of its robots: environments are independent. `previous` has the values of a robot's quantities at the
+//! previous evaluation.
 
-mod court;
+mod host;
 mod quantity;
 mod wording;
 
 use crate::world::World;
-use court::Court;
+use host::EnvironmentHost;
 use quantity::{Quantities, Scratch};
 use starl_core::RobotId;
 use starl_lang::machine::{Limits, Machine, Object, State, Workspace};
@@ -131,7 +131,7 @@ impl Judge {
             reward,
             terminated,
             information,
-            all: court::all(limits.len()),
+            all: host::all(limits.len()),
         })
     }
 
@@ -232,7 +232,7 @@ impl Judge {
         workspace: &mut Workspace,
         mut take: impl FnMut([f64; 2]) -> bool,
     ) -> Result<(), JudgeError> {
-        let mut court = Court {
+        let mut host = EnvironmentHost {
             states: scratch.states(),
             all: &self.all,
         };
@@ -243,7 +243,7 @@ impl Judge {
             ..Limits::default()
         };
         let program = &expression.program;
-        let mut machine = Machine::new(program, &mut none, workspace, &mut court, limits);
+        let mut machine = Machine::new(program, &mut none, workspace, &mut host, limits);
         for robot in 0..robots {
             let value = match machine.call(expression.function, &[robot], &[]) {
                 Ok((scalars, _)) => expression.kind.value(scalars),

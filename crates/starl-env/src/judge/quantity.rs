@@ -9,7 +9,7 @@ use starl_core::event::Hit;
 use starl_lang::machine::{Layout, List, Object, State, Type};
 use starl_motion::State as Motion;
 
-/// Where quantities come from and go to.
+/// The inputs and outputs of quantities.
 #[derive(Debug)]
 pub struct Quantities {
     /// The numbers of a robot's row.
@@ -212,7 +212,7 @@ impl Quantities {
         }
     }
 
-    /// Takes in the values of a measure.
+    /// Sets the values of a measure.
     pub fn set_column(&self, place: usize, values: &[[f64; 2]], scratch: &mut Scratch) {
         let column = self.columns.iter().find(|column| column.0 == place);
         let Some(&(_, kind, scalar)) = column else {
@@ -225,7 +225,7 @@ impl Quantities {
         }
     }
 
-    /// Keeps what is `previous` next time.
+    /// Stores the values for `previous` of the next evaluation.
     pub fn keep(&self, scratch: &Scratch, memory: &mut [u64]) {
         if self.memory == 0 {
             return;
@@ -265,7 +265,7 @@ impl Source {
         }
     }
 
-    /// Gives the value of each robot.
+    /// Evaluates it for each robot.
     fn fill(
         self,
         world: &World,

@@ -47,7 +47,7 @@ impl Kind {
     }
 }
 
-/// A quantity that stays as it is.
+/// A constant quantity.
 #[derive(Clone, Debug)]
 pub struct Constant {
     /// Its name.
@@ -72,7 +72,7 @@ pub struct Column {
 /// The expressions of a task.
 #[derive(Clone, Debug, Default)]
 pub struct Wording {
-    /// Quantities that stay as they are.
+    /// Constant quantities.
     pub constants: Vec<Constant>,
     /// Quantities in the order of a robot's row. Those with texts are computed in this order.
     pub columns: Vec<Column>,
@@ -141,7 +141,7 @@ impl Wording {
     /// The program around the expressions.
     ///
     /// # Errors
-    /// Where a name cannot be used.
+    /// If a name cannot be used.
     pub fn program(&self) -> Result<String, WordingError> {
         let mut program = String::from("program Task\n");
         let mut before = Vec::new();

@@ -1,4 +1,4 @@
-//! An environment goes the same way whatever is beside it, and on any number of threads.
+//! An environment is independent of the others, and of the number of threads.
 
 use crate::support::{Arrays, actions, radio, settings, start};
 use starl_env::{Actions, Batch, Radio, Settings};

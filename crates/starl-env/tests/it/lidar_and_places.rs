@@ -24,7 +24,7 @@ fn lidar_sees_obstacles_and_robots() {
 }
 
 #[test]
-fn bodies_stop_at_what_they_touch() {
+fn bodies_stop_at_contacts() {
     let mut batch = Batch::new(settings("holonomic", 2), 1).expect("fair settings");
     let at = |x: f64| Pose::level(Point::planar(x, 0.0), 0.0);
     batch.place(0, &[at(-1.0), at(-2.0)]);

@@ -43,7 +43,7 @@ fn messages_arrive_at_once_without_delay() {
 }
 
 #[test]
-fn messages_come_as_late_as_their_delay() {
+fn messages_arrive_after_their_delay() {
     let late = Radio {
         delay: (2, 2),
         ..radio(2)
@@ -65,7 +65,7 @@ fn robots_out_of_range_hear_nothing() {
 }
 
 #[test]
-fn losses_are_as_frequent_as_set_and_newer_messages_stay() {
+fn losses_have_their_rate_and_newer_messages_are_kept() {
     let lossy = Radio {
         loss: 0.25,
         delay: (0, 3),
@@ -85,7 +85,7 @@ fn losses_are_as_frequent_as_set_and_newer_messages_stay() {
             came += usize::from(age == 0);
         }
     }
-    // A quarter of those that are not lost have no delay.
+    // A quarter of the messages that arrive have no delay.
     let expected = 0.75 * 0.25 * 8000.0;
     assert!(
         (came as f64 - expected).abs() < 0.1 * expected,

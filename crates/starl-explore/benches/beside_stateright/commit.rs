@@ -113,7 +113,7 @@ impl Invariant for Consistent {
     }
 }
 
-/// Searches all states with so many resource managers.
+/// Searches all states with this number of resource managers.
 pub fn search(managers: usize) -> Report {
     let program = Participant {
         stage: Stage::Working,

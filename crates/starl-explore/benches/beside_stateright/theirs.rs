@@ -142,7 +142,7 @@ impl Model for TwoPhaseSys {
     }
 }
 
-/// Searches all states with so many resource managers, breadth first on one thread.
+/// Searches all states with this number of resource managers, breadth first on one thread.
 pub fn search(managers: usize) -> usize {
     let model = TwoPhaseSys { rms: 0..managers };
     let checker = model.checker().threads(1).spawn_bfs().join();

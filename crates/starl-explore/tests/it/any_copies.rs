@@ -1,6 +1,6 @@
-//! Three robots in a network that keeps all that was ever said: any of it may arrive at any time, any number of
-//! times, or never, also after its sender or its receiver has crashed and started again. That covers every loss and
-//! every duplicate. The checkers are those of every run.
+//! Three robots in a network that keeps every datagram: each may arrive at any time, any number of times, or never,
+//! also after a crash and restart of its sender or receiver. This covers every loss and every duplicate. The checkers
+//! are those of every run.
 
 use crate::support::elector::Elector;
 use crate::support::keeper::{Keeper, Operation};
@@ -83,7 +83,7 @@ fn quorums() -> Setup {
 }
 
 #[test]
-fn what_is_judged_happens() {
+fn the_judged_events_happen() {
     use election::Algorithm::{Ballots, Bully};
     let write_and_read = [Some(Operation::Write), Some(Operation::Read), None];
     assert!(happens(memory(1), 0, "write"));

@@ -64,7 +64,7 @@ fn leases(robots: usize, wishes: &[&[&'static str]], ticks: u16, crashes: u8) ->
 }
 
 #[test]
-fn resources_are_held_in_what_is_explored() {
+fn resources_are_held_in_the_explorations() {
     assert!(happens(quorums(3, &ALL, 0, 0), 0, "enter"));
     assert!(happens(leases(3, &TWO, 0, 0), WARM_UP, "enter"));
     assert!(happens(leases(2, &ALL, 4, 0), WARM_UP, "expire"));

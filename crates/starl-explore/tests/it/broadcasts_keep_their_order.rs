@@ -1,5 +1,5 @@
-//! Broadcasts of three robots with one crash and restart and one duplicate: what is handed to programs is handed
-//! over once, and in the order that was promised. That a datagram gets lost is that it never arrives.
+//! Broadcasts of three robots with one crash and restart and one duplicate: each message is delivered once, and in the
+//! promised order. A lost datagram is one that never arrives.
 
 use crate::support::speaker::Speaker;
 use crate::support::{all_is_well, happens, setup, watched};
@@ -24,7 +24,7 @@ fn broadcasts(order: Order, messages: &[u8]) -> Setup {
 const ONE: &[u8] = &[1, 0, 0];
 
 #[test]
-fn messages_are_handed_over_in_what_is_explored() {
+fn messages_are_delivered_in_the_explorations() {
     for order in [Order::Unordered, Order::Fifo, Order::Causal] {
         assert!(happens(broadcasts(order, ONE), 0, "deliver"), "{order:?}");
     }

@@ -48,7 +48,7 @@ impl Explorer {
         }
     }
 
-    /// All that is due now: first datagrams, then timers, then activations.
+    /// Everything that is due now: first datagrams, then timers, then activations.
     fn moment(&mut self) {
         let is_due = |(at, datagram): &(u64, Datagram), host: &Explorer| {
             *at <= host.now && host.walk.scene().is_up(datagram.to)
@@ -159,9 +159,9 @@ starl_host::conformance!(
     skip a_path_answers_its_request = "robots in an exploration stand still",
     skip a_path_for_an_earlier_life_is_ignored = "robots in an exploration stand still",
     skip a_path_for_a_robot_that_is_down_is_ignored = "robots in an exploration stand still",
-    skip a_corrupted_robot_goes_on_until_it_restarts = "the explorer corrupts no state",
-    skip what_was_saved_is_found_after_a_restart = "robots in an exploration have no storage",
-    skip nothing_leaves_before_it_is_saved = "robots in an exploration have no storage",
-    skip a_crash_undoes_a_write_and_all_that_rests_on_it = "robots in an exploration have no storage",
-    skip one_write_takes_all_that_was_saved_during_the_one_before = "robots in an exploration have no storage",
+    skip a_corrupted_robot_continues_until_it_restarts = "the explorer corrupts no state",
+    skip saved_values_are_found_after_a_restart = "robots in an exploration have no storage",
+    skip effects_wait_for_the_write = "robots in an exploration have no storage",
+    skip a_crash_undoes_a_write_and_its_effects = "robots in an exploration have no storage",
+    skip writes_are_batched = "robots in an exploration have no storage",
 );

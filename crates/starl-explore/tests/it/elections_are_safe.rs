@@ -33,7 +33,7 @@ fn election(algorithm: Algorithm, ticks: u16, delay: u8, crashes: u8) -> Setup {
 }
 
 #[test]
-fn leaders_are_elected_in_what_is_explored() {
+fn leaders_are_elected_in_the_explorations() {
     for (algorithm, ticks) in [
         (Algorithm::Bully, 2),
         (Algorithm::Ballots, 2),

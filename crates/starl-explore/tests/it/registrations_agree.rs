@@ -34,7 +34,7 @@ fn registration(ticks: u16, delay: Option<u8>, crashes: u8) -> Setup {
 }
 
 #[test]
-fn robots_agree_in_what_is_explored() {
+fn robots_agree_in_the_explorations() {
     for (ticks, delay) in [(2, Some(0)), (1, None)] {
         assert!(
             happens(registration(ticks, delay, 0), 0, "agree"),

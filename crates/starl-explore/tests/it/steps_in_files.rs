@@ -1,4 +1,4 @@
-//! Steps in the files of counterexamples keep their form, so that old files can be gone again.
+//! Steps in the files of counterexamples keep their form, so that old files can still be replayed.
 
 use starl_core::timer::Token;
 use starl_core::{Port, RobotId, TimerKey};

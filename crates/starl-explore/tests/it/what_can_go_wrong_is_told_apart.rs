@@ -129,7 +129,7 @@ fn a_program_that_fails_is_a_violation() {
 }
 
 #[test]
-fn bounds_that_cut_are_told() {
+fn reached_bounds_are_reported() {
     let greeter = Greeter {
         patience: Some(Duration::from_millis(100)),
         ..Greeter::default()
@@ -177,7 +177,7 @@ fn a_program_that_does_not_write_its_state_is_found_out() {
     assert!(matches!(end, End::Contradiction(_)), "{end:?}");
 }
 
-/// The same count, but without a claim to show it: it is told apart by what has happened to it.
+/// The same count, but without a claim to show it: its history distinguishes it.
 #[derive(Clone, Debug, Default, Primitives)]
 struct Silent(u32);
 
@@ -191,7 +191,7 @@ impl Program for Silent {
 }
 
 #[test]
-fn a_program_that_claims_nothing_is_told_apart_by_its_past() {
+fn a_program_without_written_state_is_identified_by_its_history() {
     let bounds = Bounds {
         depth: Some(10),
         ..Bounds::default()
@@ -256,7 +256,7 @@ fn timers_fire_in_their_order_where_clocks_tick() {
 }
 
 #[test]
-fn where_clocks_stand_still_timers_fire_in_any_order() {
+fn without_ticking_clocks_timers_fire_in_any_order() {
     let bounds = Bounds {
         timers: 2,
         ..Bounds::default()

@@ -32,8 +32,7 @@ impl Batch {
         self.entries.clear();
     }
 
-    /// Puts the entries in the order of their times; those of one time by robot; those of one time and
-    /// robot stay in their order.
+    /// Sorts the entries by time and robot; the sort is stable.
     pub fn sort(&mut self) {
         self.entries.sort_by_key(|entry| (entry.at, entry.robot));
     }

@@ -1,4 +1,4 @@
-//! Numbers that are mostly those of before: only those whose bits differ are kept.
+//! Delta encoding of lists of numbers: only numbers whose bits have changed are stored.
 
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ impl Delta {
         differs.then_some(Delta { count, bytes })
     }
 
-    /// The list to which this leads from `old`; `None` if this is no delta.
+    /// Applies the delta to `old`; `None` if the delta is invalid.
     pub fn apply(&self, old: impl Iterator<Item = u64>) -> Option<Vec<u64>> {
         let count = self.count as usize;
         let (mask, words) = self.bytes.split_at_checked(count.div_ceil(8))?;

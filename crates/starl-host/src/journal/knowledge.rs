@@ -82,7 +82,7 @@ impl Knowledge {
     }
 }
 
-/// The numbers of an estimate, but for its time.
+/// The numbers of an estimate, without its time.
 pub fn estimate_words(estimate: &Estimate) -> [u64; 12] {
     let Estimate { pose, twist, .. } = estimate;
     let (place, speed) = (pose.position, twist.linear);

@@ -41,7 +41,7 @@ impl Lists {
 }
 
 impl List {
-    /// Lets a robot know this list in the place of the one before.
+    /// Replaces the robot's previous list by this one.
     pub fn put_into(self, known: &mut Knowledge) {
         match self {
             List::Fleet(list) => known.fleet = list,

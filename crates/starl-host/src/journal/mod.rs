@@ -1,10 +1,10 @@
-//! A robot's journal: all that a host did to the robot's software, what the robot knew each time, and
-//! what its software asked for.
+//! A robot's journal: all calls of the robot's software by its host, with the robot's knowledge at each call and the
+//! effects.
 //!
-//! A [`Journal`] takes down what nodes show to [`crate::Outlet::observe`], a [`Reader`] gives it back, and a
-//! [`crate::Replayer`] repeats it with no host at all. Of what a robot knows, an entry holds only what has
-//! changed since the robot's entry before; lists that many robots share (the fleet, waypoints, obstacles)
-//! are kept once, under the hash of their content. Everything comes back to the last bit.
+//! A [`Journal`] records the calls that nodes show to [`crate::Outlet::observe`], a [`Reader`] reads them, and a
+//! [`crate::Replayer`] repeats them without a host. An entry contains only the changes of the robot's knowledge since
+//! its previous entry. Lists that many robots share (the fleet, waypoints, obstacles) are stored once, under the hash
+//! of their content. Everything is restored exactly.
 //!
 //! The encoding is postcard's. `docs/reference/trace.md` describes it.
 
@@ -28,8 +28,8 @@ use change::Change;
 use serde::{Deserialize, Serialize};
 use starl_core::{Effect, Input, Random, Saved, View};
 
-/// The version of the encoding. It counts every change of what a journal's bytes mean, changes of the
-/// types of `starl-core` that it holds among them.
+/// The version of the encoding. It is incremented by every change of the encoding, including changes of the types of
+/// `starl-core` that it contains.
 pub const VERSION: u32 = 1;
 
 /// Something that is done to a robot's software.

@@ -1,4 +1,4 @@
-//! Gives back what a journal holds.
+//! Reads the contents of a journal.
 
 use super::batch::Frame;
 use super::knowledge::Knowledge;
@@ -38,8 +38,8 @@ impl Reader {
         }
     }
 
-    /// Reads the next message and shows each of the robot's entries to `see`. Messages must come in the
-    /// order in which they were packed, none left out.
+    /// Reads the next message and shows each of the robot's entries to `see`. Messages must be passed in the order in
+    /// which they were packed, without omissions.
     ///
     /// # Errors
     /// If the bytes are not a journal. The entries before are shown.

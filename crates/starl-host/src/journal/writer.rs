@@ -10,10 +10,10 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use starl_core::{RobotId, Time, View};
 
-/// The journal of robots with successive numbers, in the making. A clone goes on exactly as the original
+/// The journal of robots with successive numbers while it is being written. A clone continues exactly as the original
 /// would.
 ///
-/// Its memory is what each robot's sensors last showed, and one copy of each list that robots know.
+/// It keeps the last readings of each robot's sensors, and one copy of each list that robots know.
 #[derive(Clone, Debug)]
 pub struct Journal {
     first: RobotId,
@@ -41,7 +41,7 @@ impl Journal {
         }
     }
 
-    /// Takes down what is done to a robot's software at `at`, by the host's clock.
+    /// Records a call of a robot's software at `at`, by the host's clock.
     ///
     /// # Panics
     /// If the robot is not one of this journal's.
@@ -74,7 +74,7 @@ impl Journal {
         self.entries.push(Noted { at, robot, entry });
     }
 
-    /// Moves what was taken down since the last time to the end of `batch`.
+    /// Moves the records since the last call to the end of `batch`.
     pub fn append_to(&mut self, batch: &mut Batch) {
         batch.lists.append(&mut self.lists.fresh);
         batch.entries.append(&mut self.entries);

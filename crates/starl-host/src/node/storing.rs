@@ -23,7 +23,7 @@ pub(super) struct Waiting {
 }
 
 impl Node {
-    /// Hands what is to be saved to storage, and keeps back what has to wait for that.
+    /// Passes saved values to storage, and holds back the effects that must wait for the write.
     pub(super) fn commit(&mut self, at: Time, list: &mut Vec<Effect>, outlet: &mut impl Outlet) {
         let has_saved = list.iter().any(|effect| matches!(effect, Effect::Save(_)));
         if !has_saved && self.waiting.is_none() {

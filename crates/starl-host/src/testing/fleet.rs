@@ -1,9 +1,9 @@
 //! The fleet of the test host, and its virtual time.
 
-use super::desk::Desk;
+use super::outlet::FleetOutlet;
 use super::unit::Unit;
 use super::wire::{Mail, Wire};
-use crate::{Happening, Node, PlanJob, Snapshot, Store, Workspace};
+use crate::{Node, NodeInput, PlanJob, Snapshot, Store, Workspace};
 use alloc::collections::{BTreeMap, VecDeque};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -11,7 +11,7 @@ use starl_core::event::{Fault, Name};
 use starl_core::motion::{Obstacles, Path};
 use starl_core::{Agent, Duration, Event, Input, Point, Random, RobotId, Sensors, Time, WayPoint};
 
-/// Robots in virtual time. A clone goes on exactly as the original would.
+/// Robots in virtual time. A clone continues exactly as the original would.
 #[derive(Clone)]
 pub struct Fleet {
     /// The current time.
@@ -26,7 +26,7 @@ pub struct Fleet {
     pub thing_names: Vec<Name>,
     /// The obstacles that all robots know.
     pub obstacles: Obstacles,
-    /// All that has happened: when, on which robot, and what.
+    /// All records: time, robot and event.
     pub records: Vec<(Time, RobotId, Event)>,
     /// How often robots hear where they are, from their start on; when they arrive, where none is given.
     pub positioning: Option<Duration>,
@@ -76,8 +76,7 @@ impl Fleet {
         }
     }
 
-    /// A robot joins the fleet; its number is that of its place. It starts when time goes on, or by
-    /// [`Fleet::start`].
+    /// Adds a robot to the fleet; its number is its index. It starts when time advances, or by [`Fleet::start`].
     pub fn add(&mut self, unit: Unit) -> usize {
         let robot = self.robots.len();
         assert_eq!(unit.node.id().index(), robot, "robots join in order");
@@ -90,7 +89,7 @@ impl Fleet {
     pub fn start(&mut self, robot: usize) {
         self.robots[robot].next_location = self.now;
         self.locate(robot);
-        self.handle(robot, Happening::Start);
+        self.handle(robot, NodeInput::Start);
     }
 
     /// A robot crashes and stops where it is.
@@ -116,14 +115,16 @@ impl Fleet {
     /// Overwrites the state of a robot's program.
     pub fn corrupt(&mut self, robot: usize, random: &mut Random) {
         self.record(robot, Event::Fault(Fault::CorruptState));
-        self.call(robot, |node, now, _, desk| node.corrupt(now, random, desk));
+        self.call(robot, |node, now, _, outlet| {
+            node.corrupt(now, random, outlet)
+        });
     }
 
-    /// A robot stands somewhere from now on, and hears of it.
+    /// Moves a robot to a position, and sends it the estimate.
     pub fn place(&mut self, robot: usize, position: Point) {
         self.robots[robot].travel.place(self.now, position);
         self.locate(robot);
-        self.handle(robot, Happening::Located);
+        self.handle(robot, NodeInput::Located);
     }
 
     /// Where a robot is.
@@ -133,24 +134,24 @@ impl Fleet {
 
     /// Hands an input to a robot now.
     pub fn input(&mut self, robot: usize, input: &Input) {
-        self.handle(robot, Happening::Input(input.clone()));
+        self.handle(robot, NodeInput::Input(input.clone()));
     }
 
     /// Lets something happen to a robot now.
-    pub fn handle(&mut self, robot: usize, happening: Happening) {
+    pub fn handle(&mut self, robot: usize, happening: NodeInput) {
         if self.positioning.is_none() && self.robots[robot].travel.is_under_way() {
             self.locate(robot);
         }
         let mut happenings = VecDeque::from([happening]);
         while let Some(happening) = happenings.pop_front() {
-            let jobs = self.call(robot, |node, now, snapshot, desk| {
-                node.handle(now, happening, snapshot, desk);
+            let jobs = self.call(robot, |node, now, snapshot, outlet| {
+                node.handle(now, happening, snapshot, outlet);
             });
             for PlanJob { job, request, .. } in jobs {
                 let path = vec![request.target];
                 if self.planning.is_zero() {
                     let path = Some(path);
-                    happenings.push_back(Happening::Planned { job, path });
+                    happenings.push_back(NodeInput::Planned { job, path });
                 } else {
                     let key = (self.now + self.planning, robot, job);
                     self.plans.insert(key, path);
@@ -159,14 +160,14 @@ impl Fleet {
         }
     }
 
-    /// Time goes on by this span; what happens at its end is part of it.
+    /// Advances time by this span, including the events at its end.
     pub fn run_for(&mut self, span: Duration) {
         let end = self.now + span;
         self.advance(end + Duration(1));
         self.now = end;
     }
 
-    /// Time goes on until `end`; what happens then is not part of it.
+    /// Advances time to `end`, excluding the events at `end`.
     pub fn run_before(&mut self, end: Time) {
         self.advance(end);
         self.now = self.now.max(end);
@@ -177,7 +178,7 @@ impl Fleet {
         self.next().0
     }
 
-    /// The host does nothing for a while: what is due is late.
+    /// Suspends the host for a while: inputs due then are late.
     pub fn stall(&mut self, span: Duration) {
         self.now += span;
     }
@@ -225,7 +226,7 @@ impl Fleet {
             Due::Plan => {
                 if let Some(((_, robot, job), path)) = self.plans.pop_first() {
                     let path = Some(path);
-                    self.handle(robot, Happening::Planned { job, path });
+                    self.handle(robot, NodeInput::Planned { job, path });
                 }
             }
             Due::Location(robot) => {
@@ -235,21 +236,21 @@ impl Fleet {
                     None => unit.travel.arrive(self.now),
                 }
                 self.locate(robot);
-                self.handle(robot, Happening::Located);
+                self.handle(robot, NodeInput::Located);
             }
             Due::Stored(robot) => {
                 let store = self.robots[robot].store.as_mut();
                 if let Some(job) = store.and_then(Store::finish) {
-                    self.handle(robot, Happening::Stored { job });
+                    self.handle(robot, NodeInput::Stored { job });
                 }
             }
             Due::Datagram => {
                 if let Some((to, datagram)) = self.mail.take() {
                     let (sequence, message) = (datagram.sequence, datagram.message);
-                    self.handle(to.index(), Happening::Datagram { sequence, message });
+                    self.handle(to.index(), NodeInput::Datagram { sequence, message });
                 }
             }
-            Due::Timeout(robot) => self.handle(robot, Happening::Timeout),
+            Due::Timeout(robot) => self.handle(robot, NodeInput::Timeout),
         }
     }
 
@@ -262,7 +263,9 @@ impl Fleet {
         let unit = &self.robots[robot];
         if !unit.node.condition().down {
             let estimate = unit.estimate(self.now);
-            self.call(robot, |node, now, _, desk| node.locate(now, estimate, desk));
+            self.call(robot, |node, now, _, outlet| {
+                node.locate(now, estimate, outlet)
+            });
         }
     }
 
@@ -270,7 +273,7 @@ impl Fleet {
     fn call(
         &mut self,
         robot: usize,
-        call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut Desk<'_>),
+        call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut FleetOutlet<'_>),
     ) -> Vec<PlanJob> {
         let unit = &mut self.robots[robot];
         let snapshot = Snapshot {
@@ -286,7 +289,7 @@ impl Fleet {
             way_points: &self.way_points,
             obstacles: &self.obstacles,
         };
-        let mut desk = Desk {
+        let mut outlet = FleetOutlet {
             robot: self.fleet[robot],
             fleet: &self.fleet,
             wire: &self.wire,
@@ -300,7 +303,7 @@ impl Fleet {
             records: &mut self.records,
             workspace: &mut self.workspace,
         };
-        call(&mut unit.node, self.now, &snapshot, &mut desk);
-        desk.plans
+        call(&mut unit.node, self.now, &snapshot, &mut outlet);
+        outlet.plans
     }
 }

@@ -26,8 +26,8 @@
 //! ```
 
 pub mod conformance;
-mod desk;
 mod fleet;
+mod outlet;
 mod reading;
 mod unit;
 mod wire;

@@ -74,7 +74,7 @@ impl Fleet {
             })
     }
 
-    /// Why the program of a robot cannot go on; none if it can, or if the robot is down.
+    /// Why the program of a robot cannot continue; none if it can, or if the robot is down.
     pub fn failure(&self, robot: usize) -> Option<&str> {
         if !self.robots[robot].node.condition().failed {
             return None;

@@ -6,7 +6,7 @@ use starl_core::motion::{Body, Workspace};
 use starl_core::sensor::{Contact, Detection, Ray};
 use starl_core::{Agent, Duration, Estimate, MotionRequest, Point, Pose, RobotId, Time};
 
-/// A robot and what is around its node.
+/// A robot with the surroundings of its node.
 #[derive(Clone)]
 pub struct Unit {
     /// The robot's node.
@@ -21,7 +21,7 @@ pub struct Unit {
     pub detections: Vec<Detection>,
     /// Its contact.
     pub bumper: Option<Contact>,
-    /// The thing that it holds. It takes whatever it is told to take, unless it holds something.
+    /// The thing that it holds. It can take any thing unless it already holds one.
     pub holding: Option<u32>,
     /// Its storage; none if it keeps nothing over a crash.
     pub store: Option<Store>,
@@ -29,12 +29,12 @@ pub struct Unit {
     pub(super) next_location: Time,
 }
 
-/// A body that goes straight to where its program tells it to go, through everything.
+/// A body that moves straight to its program's target, through everything.
 #[derive(Clone, Debug)]
 pub struct Travel {
-    /// Metres per second; infinite if it gets everywhere at once.
+    /// Metres per second; infinite for instant moves.
     pub speed: f64,
-    /// How often it was told to stop where it is.
+    /// The number of commands to stop.
     pub halts: u32,
     position: Point,
     /// When it was at `position`.
@@ -43,7 +43,7 @@ pub struct Travel {
 }
 
 impl Unit {
-    /// A robot at the origin that starts at time 0, is not activated, and is at once where it is told to go.
+    /// A robot at the origin that starts at time 0, is not activated, and moves instantly.
     pub fn new(id: RobotId, agent: Agent) -> Unit {
         Unit {
             node: Node::new(id, Clock::default(), agent, Time::ZERO),
@@ -117,7 +117,7 @@ impl Travel {
         self.target.is_some()
     }
 
-    /// When it gets to where it goes; [`Time::NEVER`] if it stands still.
+    /// The time of its arrival; [`Time::NEVER`] if it does not move.
     pub fn arrival(&self) -> Time {
         self.target.map_or(Time::NEVER, |target| {
             let span = self.position.distance(target) / self.speed;
@@ -132,7 +132,7 @@ impl Travel {
         self.target = None;
     }
 
-    /// It gets to where it goes.
+    /// It arrives at its target.
     pub(super) fn arrive(&mut self, now: Time) {
         self.place(now, self.target.unwrap_or(self.position));
     }

@@ -7,7 +7,7 @@ use starl_core::{Destination, Duration, Random, RobotId, Time};
 
 use crate::Datagram;
 
-/// The network's faults. Tests change them as they go; what is on its way already arrives.
+/// The network's faults. Tests may change them at any time; datagrams in transit still arrive.
 #[derive(Clone, Debug)]
 pub struct Wire {
     /// How likely a copy is lost.
@@ -37,7 +37,7 @@ impl Wire {
         }
     }
 
-    /// Every datagram takes so long.
+    /// Every datagram takes this time.
     pub fn delayed(delay_ms: u64) -> Wire {
         Wire {
             delay_ms: (delay_ms, delay_ms),
@@ -74,7 +74,7 @@ impl Wire {
     }
 }
 
-/// The datagrams in transit, by arrival time; of simultaneous arrivals, those sent first come first.
+/// The datagrams in transit, by arrival time; simultaneous arrivals are in the order of sending.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mail {
     flying: BTreeMap<(Time, u64), (RobotId, Datagram)>,

@@ -1,4 +1,4 @@
-//! Whatever the bytes of a journal are, reading them ends in an error or in entries, never in a panic.
+//! Reading any bytes as a journal returns an error or entries, and never panics.
 
 use crate::support::{messages, random_deeds, read};
 use starl_core::{Random, Time};

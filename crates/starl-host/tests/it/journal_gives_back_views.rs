@@ -1,4 +1,4 @@
-//! A journal gives back what was done and what the robot knew, to the last bit, though it holds only changes.
+//! A journal restores the calls and the robot's knowledge exactly, although it stores only changes.
 
 use crate::support::{Deed, World, messages, random_deeds, read, text};
 use starl_core::{Input, Obstacle, Point, RobotId, Time};
@@ -16,7 +16,7 @@ fn assert_same(deeds: &[(Time, Deed)], size: usize) {
 }
 
 #[test]
-fn whatever_changes() {
+fn every_change_is_restored() {
     for seed in 0..200 {
         assert_same(&random_deeds(seed, 60), 1 + seed as usize % 7);
     }

@@ -5,7 +5,7 @@ use starl_core::{
     Agent, Duration, Event, Primitives, Program, Random, Robot, RobotId, Sensors, Time,
 };
 use starl_host::{
-    Clock, Datagram, Happening, Hardware, Node, Observed, Outlet, PlanJob, Snapshot, Workspace,
+    Clock, Datagram, Hardware, Node, NodeInput, Observed, Outlet, PlanJob, Snapshot, Workspace,
 };
 
 #[derive(Clone, Primitives)]
@@ -48,7 +48,7 @@ fn agent(key: u64) -> Agent {
     Agent::new(Box::new(Idle), stream(key))
 }
 
-fn handle(node: &mut Node, host: &mut Host, at: u64, happening: Happening) {
+fn handle(node: &mut Node, host: &mut Host, at: u64, happening: NodeInput) {
     let hardware = Hardware {
         body: Body {
             radius: 0.1,
@@ -72,8 +72,8 @@ fn handle(node: &mut Node, host: &mut Host, at: u64, happening: Happening) {
 fn starts_corruption_and_restarts() {
     let mut host = Host::default();
     let mut node = Node::new(RobotId(0), Clock::default(), agent(1), Time::ZERO);
-    handle(&mut node, &mut host, 0, Happening::Start);
-    handle(&mut node, &mut host, 0, Happening::Timeout);
+    handle(&mut node, &mut host, 0, NodeInput::Start);
+    handle(&mut node, &mut host, 0, NodeInput::Timeout);
     node.corrupt(Time(5), &mut stream(2), &mut host);
     node.crash();
     // A robot that is down has no state that could be corrupted.
@@ -81,7 +81,7 @@ fn starts_corruption_and_restarts() {
     node.restart(Time(7), agent(4));
     // It is corrupted before it has started.
     node.corrupt(Time(8), &mut stream(5), &mut host);
-    handle(&mut node, &mut host, 9, Happening::Start);
+    handle(&mut node, &mut host, 9, NodeInput::Start);
     let show = |what: &str, key: u64| format!("{what} {:x}", stream(key).preview());
     let expected = [
         (0, show("started", 1)),

@@ -1,4 +1,4 @@
-//! A command that a robot's model does not take stops the robot, and what it did before does not go on.
+//! A command that a robot's model does not accept stops the robot, and cancels the previous command.
 
 use starl_core::{
     Agent, Command, Duration, Estimate, Event, Point, Program, Random, Robot, RobotId, Sensors,
@@ -6,7 +6,7 @@ use starl_core::{
 };
 use starl_host::hardware::Drive;
 use starl_host::{
-    Clock, Datagram, Happening, Hardware, Node, Outlet, PlanJob, Snapshot, StoreJob, Workspace,
+    Clock, Datagram, Hardware, Node, NodeInput, Outlet, PlanJob, Snapshot, StoreJob, Workspace,
 };
 use starl_motion::{Neighbour, models};
 
@@ -78,12 +78,12 @@ fn a_robot_whose_command_is_refused_stands_still_at_later_estimates() {
     let agent = Agent::new(Box::new(Confused), Random::keyed(1, &[]));
     let mut node = Node::new(RobotId(0), Clock::default(), agent, Time::ZERO);
     let mut notes = Notes::default();
-    node.handle(Time::ZERO, Happening::Start, &snapshot, &mut notes);
+    node.handle(Time::ZERO, NodeInput::Start, &snapshot, &mut notes);
     for ms in (0..=2000).step_by(50) {
         node.locate(at(ms), Estimate::default(), &mut notes);
-        node.handle(at(ms), Happening::Located, &snapshot, &mut notes);
+        node.handle(at(ms), NodeInput::Located, &snapshot, &mut notes);
         while node.next_timeout() <= at(ms) {
-            node.handle(at(ms), Happening::Timeout, &snapshot, &mut notes);
+            node.handle(at(ms), NodeInput::Timeout, &snapshot, &mut notes);
         }
         let stands = node.command() == Command::Stop;
         assert_eq!(stands, ms >= 1000, "after {ms} ms: {:?}", node.command());

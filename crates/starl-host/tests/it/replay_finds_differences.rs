@@ -1,4 +1,4 @@
-//! A replay tells software that behaves otherwise than it did, and where.
+//! A replay detects software that behaves differently, and where.
 
 use crate::support::{World, said};
 use starl_core::effect::Effects;

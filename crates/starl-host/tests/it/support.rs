@@ -1,4 +1,4 @@
-//! Journals of one robot whose knowledge a test changes at will.
+//! Journals of one robot whose knowledge a test changes.
 
 use starl_core::event::{Level, Name};
 use starl_core::motion::{Body, Obstacles, Workspace};
@@ -83,7 +83,7 @@ impl World {
         }
     }
 
-    /// Changes one thing, numbers that are equal but not the same among them.
+    /// Makes one random change; some change a number to an equal one with other bits.
     pub fn change(&mut self, random: &mut Random) {
         let number = match random.below(8) {
             0 => -0.0,
@@ -185,7 +185,7 @@ impl Deed {
     }
 }
 
-/// Everything in an observation as text, to the last bit but for what a not-a-number carries.
+/// Everything in an observation as text, exactly, except the payload of NaN.
 pub fn text(at: Time, observed: Observed<'_>) -> String {
     format!("{at:?} {observed:?}")
 }

@@ -1,4 +1,4 @@
-//! What benchmarks of the machine share: the time of a function that needs no host.
+//! Common code of the machine's benchmarks: the time of a function that needs no host.
 
 #![allow(
     clippy::disallowed_methods,

@@ -20,9 +20,9 @@ pub(super) struct Arranged {
     pub rest: Vec<(Option<String>, ast::Expression)>,
 }
 
-/// What may be called with which arguments.
+/// The parameters of a function, method, record or message.
 pub(super) struct Parameters<'a> {
-    /// What is called, for messages.
+    /// Its name in messages.
     pub callee: &'a str,
     /// Names, and whether each may be left out.
     pub names: Vec<(&'a str, bool)>,
@@ -70,7 +70,7 @@ impl Checker {
             .collect()
     }
 
-    /// Arguments by the shapes of a signature's parameters; those left out are none.
+    /// Arguments by the shapes of a signature's parameters; omitted ones are none.
     pub fn shaped_arguments(
         &mut self,
         signature: &Signature,
@@ -175,13 +175,13 @@ impl Checker {
                     let names = parameters.names.iter().map(|(name, _)| *name);
                     let problem = did_you_mean(problem, at, &text, names);
                     self.report(problem);
-                    // What it was meant for is not missing.
+                    // The unknown argument may be meant for a missing parameter, so missing ones are not reported.
                     return Arranged { values, rest };
                 }
             }
         }
         if is_doubled {
-            // What it was meant for is not missing.
+            // The extra argument may be meant for a missing parameter, so missing ones are not reported.
             return Arranged { values, rest };
         }
         let given = arguments.len();
@@ -234,7 +234,7 @@ impl Checker {
             .note(form)
     }
 
-    /// Notes what the names of arguments stand for.
+    /// Resolves the names of arguments.
     pub fn resolve_names(
         &mut self,
         arguments: &[ast::Argument],
@@ -261,7 +261,7 @@ impl Checker {
         });
     }
 
-    /// Looks for errors in the arguments of what cannot be called.
+    /// Checks the arguments of something that cannot be called.
     pub fn check_anyway(&mut self, arguments: &[ast::Argument]) {
         for argument in arguments {
             let can_be_checked =

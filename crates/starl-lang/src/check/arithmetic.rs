@@ -11,9 +11,9 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
 use crate::syntax::ast::BinaryOperator;
 
-/// What is said where two types look the same.
+/// The note on two different types with the same name.
 pub(super) const SAME_NAME: &str =
-    "these are two types that are declared apart; declare one, with a name, and use it twice";
+    "these are two different types; declare one with a name, and use it for both";
 
 impl Checker {
     /// An operator of arithmetic, between values that were checked.
@@ -48,12 +48,12 @@ impl Checker {
             if let Type::Optional(inner) = &side.ty
                 && (result(operator, inner, inner).is_some() || is_ordered(inner))
             {
-                let message = format!("what `{sign}` joins may be none");
+                let message = format!("an operand of `{sign}` may be none");
                 let problem = Diagnostic::new(Code::MayBeNone, side.span, message);
                 let problem = problem.found(self.name_of(&side.ty));
-                self.report(problem.note(
-                    "ask first with `if some x = ...`, or say what it is then with `?? ...`",
-                ));
+                self.report(
+                    problem.note("test it with `if some x = ...`, or give a default with `?? ...`"),
+                );
                 return;
             }
         }
@@ -78,7 +78,7 @@ impl Checker {
         let message = match (compares, left.ty == right.ty) {
             (true, true) => format!("`{sign}` does not compare {l}"),
             (true, false) => format!("`{sign}` does not compare {l} with {r}"),
-            (false, _) => format!("`{sign}` does not join {l} and {r}"),
+            (false, _) => format!("`{sign}` does not apply to {l} and {r}"),
         };
         let problem = Diagnostic::new(Code::OperatorTypes, span, message);
         let look_the_same = l == r && left.ty != right.ty;
@@ -88,14 +88,14 @@ impl Checker {
             _ if look_the_same => problem.note(SAME_NAME),
             (Type::Point, Type::Int, _) if is_scaling => self.as_float(problem, right),
             (Type::Int, Type::Point, BinaryOperator::Multiply) => self.as_float(problem, left),
-            (Type::String, _, BinaryOperator::Add) => problem.mend(around(
-                "make a text of it with `String(...)`",
+            (Type::String, _, BinaryOperator::Add) => problem.fix(around(
+                "convert it with `String(...)`",
                 right.span,
                 "String(",
                 ")",
             )),
-            (_, Type::String, BinaryOperator::Add) => problem.mend(around(
-                "make a text of it with `String(...)`",
+            (_, Type::String, BinaryOperator::Add) => problem.fix(around(
+                "convert it with `String(...)`",
                 left.span,
                 "String(",
                 ")",
@@ -112,14 +112,14 @@ impl Checker {
         });
     }
 
-    /// The problem with a mend that makes the Int a Float.
+    /// The problem with a fix that makes the Int a Float.
     pub fn as_float(&self, problem: Diagnostic, int: &Expression) -> Diagnostic {
         match int.kind {
             ExpressionKind::Int(_) => {
                 let float = format!("{}.0", self.text(int.span));
                 problem.replace(format!("write `{float}`"), int.span, float)
             }
-            _ => problem.mend(around(
+            _ => problem.fix(around(
                 "convert it with `Float(...)`",
                 int.span,
                 "Float(",
@@ -141,7 +141,7 @@ pub(super) fn resolve(operator: BinaryOperator) -> Option<Operator> {
     })
 }
 
-/// The type of what an operator of arithmetic gives; none if it does not join the two.
+/// The result type of an arithmetic operator; none if it does not apply to the two.
 pub(super) fn result(operator: BinaryOperator, left: &Type, right: &Type) -> Option<Type> {
     use BinaryOperator::{Add, Divide, Multiply, Remainder, Subtract};
     use Type::{Duration, Float, Int, List, Point, String, Time};

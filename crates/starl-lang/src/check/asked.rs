@@ -1,26 +1,26 @@
-//! `if x != none` asks whether there is a value, but gives it no name, so that it may be none still where
-//! it is used. What was meant is `if some known = x`, and that can be said of the very place.
+//! `if x != none` tests an optional but gives its value no name, so the value may still be none where it is used. The
+//! fix `if some known = x` is offered at the exact place of the comparison.
 
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Edit, Mend, Span};
+use crate::diagnostic::{Edit, Fix, Span};
 use crate::syntax::ast::{
     AssignStatement, AstNode, BinaryExpression, BinaryOperator, ConditionalExpression, Expression,
     IfBranch, PreClause, UnwrapExpression,
 };
 use crate::syntax::{SyntaxKind, SyntaxNode};
 
-/// What the value is called then.
+/// The suggested name of the value.
 const NAME: &str = "known";
 
-/// A comparison with none that decides over a place where the same may not be none.
+/// A comparison with `none` that guards a use of the same optional.
 pub(super) struct Asked {
     /// The comparison.
     pub span: Span,
     /// Gives the value a name there, and uses it.
-    pub mend: Mend,
+    pub fix: Fix,
 }
 
 /// The comparison that decides over the expression at `span`.
@@ -49,7 +49,7 @@ pub(super) fn before(root: &SyntaxNode, source: &str, span: Span) -> Option<Aske
     edits.extend(uses.into_iter().map(|used| Edit::new(used, &*name)));
     Some(Asked {
         span: comparison,
-        mend: Mend { message, edits },
+        fix: Fix { message, edits },
     })
 }
 
@@ -91,7 +91,7 @@ fn conjunct(condition: &Expression, text: &str, source: &str) -> Option<Span> {
     }
 }
 
-/// All that the condition decides over which a node is a part of.
+/// Everything that the condition decides over which a node is a part of.
 fn whole(node: SyntaxNode) -> SyntaxNode {
     let mut scope = node;
     while scope.kind() == SyntaxKind::BinaryExpression {

@@ -1,4 +1,4 @@
-//! What a program does: `init` and actions.
+//! The behaviour of a program: `init` and actions.
 
 use alloc::format;
 use alloc::string::ToString;

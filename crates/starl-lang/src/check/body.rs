@@ -1,4 +1,4 @@
-//! The body that is being checked: its locals, its scopes, and what may stand in it.
+//! The body that is being checked: its locals, its scopes, and the allowed purity.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -7,7 +7,7 @@ use super::Purity;
 use crate::diagnostic::{Code, Span};
 use crate::ir::{Local, LocalId, SharedId, Type, VariableId};
 
-/// What a body belongs to.
+/// The kind of body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Where {
     /// The value of a constant or the default of a parameter.
@@ -25,7 +25,7 @@ pub(super) enum Where {
 }
 
 impl Where {
-    /// Whether something of this purity may stand in it.
+    /// Whether code of this purity is allowed in it.
     pub fn allows(self, purity: Purity) -> bool {
         match self {
             Self::Constant | Self::Function | Self::Binding => purity == Purity::Pure,
@@ -35,12 +35,12 @@ impl Where {
         }
     }
 
-    /// What it is, for messages.
+    /// The phrase for messages.
     pub fn what(self) -> &'static str {
         match self {
             Self::Constant => "a constant",
             Self::Initial(_) => "the first value of a variable",
-            Self::Binding => "what a primitive is bound with",
+            Self::Binding => "an argument of a primitive",
             Self::Function => "a function",
             Self::Guard => "a guard",
             Self::Effect => "an effect",
@@ -62,7 +62,7 @@ pub(super) struct Body {
     pub locals: Vec<Local>,
     /// For each local whether it is read.
     unread: Vec<Unread>,
-    /// Which locals cannot be assigned to, and what they are instead of variables.
+    /// The locals that cannot be assigned to, with the phrase for messages.
     pub fixed: Vec<Option<&'static str>>,
     /// The locals that can be seen, the innermost last.
     pub names: Vec<(String, LocalId)>,
@@ -86,7 +86,7 @@ impl Body {
         }
     }
 
-    /// The local that the name stands for.
+    /// The local of this name.
     pub fn find(&self, name: &str) -> Option<LocalId> {
         let found = self.names.iter().rev().find(|(local, _)| local == name)?;
         Some(found.1)
@@ -110,7 +110,7 @@ impl Body {
         self.unread[local.index()].is_read = true;
     }
 
-    /// Whether a local is read, as far as is known.
+    /// Whether a local is known to be read.
     pub fn is_read(&self, local: LocalId) -> bool {
         self.unread[local.index()].is_read
     }
@@ -120,8 +120,8 @@ impl Body {
         self.unread[local.index()].is_read = false;
     }
 
-    /// The robot that a quantifier of a property named last. What a comprehension is at, and the value of an
-    /// optional, are fixed.
+    /// The innermost robot variable that a quantifier of a property binds. Variables of comprehensions and of `some`
+    /// are not counted.
     pub fn quantified(&self) -> Option<LocalId> {
         let mut names = self.names.iter().rev().map(|(_, local)| *local);
         names.find(|local| {

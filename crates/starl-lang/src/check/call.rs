@@ -96,7 +96,7 @@ impl Checker {
         self.report(problem);
     }
 
-    /// A call of what a file declares.
+    /// A call of a declaration of a file.
     pub fn call_entity(
         &mut self,
         entity: Entity,

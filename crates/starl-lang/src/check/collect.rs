@@ -1,4 +1,4 @@
-//! What each file declares: every name gets its number before anything is looked at closer.
+//! Collects the declarations of each file: every name gets its number before any body is checked.
 
 use alloc::format;
 use alloc::string::String;
@@ -28,7 +28,7 @@ impl Checker {
             let is_library = tree.items().any(|item| matches!(item, Item::Library(_)));
             for item in tree.items() {
                 if (is_library || file > 0) && !self.may_be_in_library(&item) {
-                    // What uses it is not to blame.
+                    // Uses of this name are not reported again.
                     if let Some(name) = item_name(&item) {
                         self.declare(&name, Entity::Broken);
                     }
@@ -327,7 +327,7 @@ impl Checker {
             let problem = Diagnostic::new(Code::UnknownConsistency, span, message);
             let names = Consistency::ALL.map(Consistency::name);
             let problem = did_you_mean(problem, span, name, names.iter().copied());
-            self.report(match problem.mend {
+            self.report(match problem.fix {
                 None => problem.note("there are `eventual`, `causal` and `linearizable`"),
                 Some(_) => problem,
             });
@@ -366,7 +366,7 @@ impl Checker {
             || matches!(name.text.as_str(), "List" | "Set" | "Map" | "role")
             || Primitive::named(&name.text).is_some();
         if reserved {
-            let message = format!("`{}` has a meaning of its own", name.text);
+            let message = format!("`{}` is a built-in name", name.text);
             let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
             self.report(problem.note("choose another name"));
             return;

@@ -143,9 +143,9 @@ impl Checker {
                 .expected(self.name_of(ty))
                 .found(format!("an empty {what}"))
         } else {
-            let message = format!("it cannot be known what this {what} holds");
+            let message = format!("the type of the elements of this {what} is unknown");
             let problem = Diagnostic::new(Code::UnclearType, span, message);
-            problem.note(format!("say it with a type, as in `{form}`"))
+            problem.note(format!("declare its type, as in `{form}`"))
         };
         self.report(problem);
         broken(span)
@@ -236,14 +236,14 @@ impl Checker {
         }
     }
 
-    /// Reports what has no elements by index or key.
+    /// Reports a value without elements by index or key.
     pub fn not_indexable(&mut self, base: &Expression) {
         let found = self.name_of(&base.ty);
         let message = format!("`[...]` does not apply to {found}");
         let problem = Diagnostic::new(Code::NotIndexable, base.span, message);
         self.report(match base.ty {
-            Type::Optional(_) => problem.note("it may be none; ask first with `if some x = ...`"),
-            Type::Set(_) => problem.note("a set has no order to count by; ask with `in`"),
+            Type::Optional(_) => problem.note("it may be none; test it with `if some x = ...`"),
+            Type::Set(_) => problem.note("a set has no indices; test with `in`"),
             _ => problem.note("it applies to lists and maps"),
         });
     }

@@ -14,10 +14,7 @@ use crate::syntax::ast::{self, BinaryOperator, Literal};
 impl Checker {
     /// Both sides of a comparison, each checked with the type of the other where it needs that.
     pub fn sides(&mut self, node: &ast::BinaryExpression) -> (Expression, Expression) {
-        let (before, after) = (
-            "what stands before the operator",
-            "what stands after the operator",
-        );
+        let (before, after) = ("the left operand", "the right operand");
         let left_needs = node.left().is_some_and(|left| self.needs_hint(&left));
         let right_needs = node.right().is_some_and(|right| self.needs_hint(&right));
         if left_needs && !right_needs {
@@ -74,7 +71,7 @@ impl Checker {
         operator: BinaryOperator,
         span: Span,
     ) -> Expression {
-        let other = self.value(Some(other), None, "what may be none");
+        let other = self.value(Some(other), None, "the optional");
         match &other.ty {
             Type::Optional(_) | Type::Error => {}
             ty => {
@@ -129,11 +126,11 @@ impl Checker {
             let collection = self.infer(node.right(), None);
             let hint = element_type(&collection.ty);
             (
-                self.value(node.left(), hint.as_ref(), "what is looked for"),
+                self.value(node.left(), hint.as_ref(), "the value before `in`"),
                 collection,
             )
         } else {
-            let item = self.value(node.left(), None, "what is looked for");
+            let item = self.value(node.left(), None, "the value before `in`");
             let element = comparable(&item.ty);
             let hint = match node.right() {
                 Some(ast::Expression::List(_)) => Type::list(element),
@@ -147,14 +144,14 @@ impl Checker {
             return broken_bool(span);
         }
         let Some(element) = element_type(&collection.ty) else {
-            let message = "it cannot be looked in this";
+            let message = "`in` does not apply to this";
             let problem = Diagnostic::new(Code::NotCollection, collection.span, message);
             let found = self.name_of(&collection.ty);
             let expected = "a list, a set, a map, a range or a text";
             self.report(problem.expected(expected).found(found));
             return broken_bool(span);
         };
-        let item = self.fit(item, &element, "what is looked for");
+        let item = self.fit(item, &element, "the value before `in`");
         let kind = ExpressionKind::In {
             item: Box::new(item),
             collection: Box::new(collection),
@@ -167,7 +164,7 @@ impl Checker {
     }
 }
 
-/// What a bare name on the other side of a comparison is expected to be.
+/// The type expected of a bare name on the other side of a comparison.
 pub(super) fn comparable(ty: &Type) -> Type {
     match ty {
         Type::Optional(inner) => (**inner).clone(),
@@ -195,7 +192,7 @@ pub(super) fn element_type(collection: &Type) -> Option<Type> {
     })
 }
 
-/// A comparison with an error: it is a Bool all the same.
+/// A comparison with an error, which is a Bool nevertheless.
 pub(super) fn broken_bool(span: Span) -> Expression {
     made(ExpressionKind::Error, Type::Bool, span)
 }

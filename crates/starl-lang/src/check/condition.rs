@@ -15,15 +15,15 @@ use crate::syntax::ast::{self, AstNode, Named};
 impl Checker {
     /// `some x = optional`: the name is known from here on.
     pub fn some(&mut self, node: &ast::SomeExpression, span: Span) -> Expression {
-        let value = self.value(node.value(), None, "what may be none");
+        let value = self.value(node.value(), None, "the optional");
         let inner = match &value.ty {
             Type::Optional(inner) => (**inner).clone(),
             Type::Error => Type::Error,
             _ => {
-                let message = "`some` needs an optional, and this is always there";
+                let message = "`some` needs an optional, and this always has a value";
                 let problem = Diagnostic::new(Code::NotOptional, value.span, message);
                 let problem = problem.found(self.name_of(&value.ty));
-                self.report(problem.note("a name for a value is given with `let x = ...`"));
+                self.report(problem.note("name a value with `let x = ...`"));
                 value.ty.clone()
             }
         };
@@ -80,11 +80,11 @@ impl Checker {
             let message = format!("the name `{name}` is taken");
             let problem = Diagnostic::new(Code::HiddenName, span, message);
             let problem = problem.label(first, format!("it is {what} here"));
-            self.report(problem.note("choose another name, so that both can be told apart"));
+            self.report(problem.note("choose another name"));
         }
     }
 
-    /// The names of a loop or a comprehension, and the types of what they get.
+    /// The names of a loop or a comprehension, and the types of their values.
     pub fn loop_variables(
         &mut self,
         names: impl Iterator<Item = ast::Name>,
@@ -108,7 +108,10 @@ impl Checker {
             return LoopVariables::One(first);
         };
         let two = two.unwrap_or_else(|| {
-            let message = format!("a {} has one thing at a time", self.name_of(&collection.ty));
+            let message = format!(
+                "a {} yields one value at a time",
+                self.name_of(&collection.ty)
+            );
             let problem = Diagnostic::new(Code::NotCollection, second.span(), message);
             self.report(problem.note("two names are for the keys and values of a map"));
             Type::Error
@@ -118,14 +121,14 @@ impl Checker {
 
     fn loop_variable(&mut self, name: &ast::Name, ty: Type) -> Option<LocalId> {
         let local = self.declare_local(name, ty, None)?;
-        self.body.fixed[local.index()] = Some("what a loop is at");
+        self.body.fixed[local.index()] = Some("a loop variable");
         Some(local)
     }
 
     /// Reports what cannot be run over.
     pub fn not_a_collection(&mut self, collection: &Expression) {
         let found = self.name_of(&collection.ty);
-        let message = "this cannot be run over";
+        let message = "this cannot be iterated";
         let problem = Diagnostic::new(Code::NotCollection, collection.span, message);
         let problem = problem
             .expected("a list, a set, a map or a range")

@@ -11,8 +11,8 @@ use crate::ir::ConstantId;
 use crate::syntax::ast::{self, AstNode};
 
 impl Checker {
-    /// Orders the constants so that each comes after those that its value needs, by way of functions
-    /// too. One that needs itself is reported.
+    /// Orders the constants so that each follows those that its value needs, also through functions. A constant that
+    /// needs itself is reported.
     pub fn order_constants(&mut self) {
         let mut sizes = Vec::new();
         for number in 0..self.program.constants.len() {
@@ -37,7 +37,7 @@ impl Checker {
         let mut order = Vec::new();
         let mut seen = BTreeSet::new();
         for number in 0..self.nodes.constants.len() {
-            // What is to be done: a constant, and whether those that it names are done.
+            // The stack of pending constants; the flag says whether the constants that it names are done.
             let mut open = Vec::from([(ConstantId(number as u32), false)]);
             while let Some((id, is_ready)) = open.pop() {
                 if is_ready {
@@ -75,7 +75,7 @@ impl Checker {
         })
     }
 
-    /// All that something needs, by way of others too.
+    /// Everything that something needs, through others too.
     fn all_needed(&self, user: Needed) -> BTreeSet<Needed> {
         let mut found = BTreeSet::new();
         let mut open = Vec::from([user]);
@@ -96,7 +96,7 @@ impl Checker {
     fn report_cycle(&mut self, id: ConstantId) {
         let constant = &self.program[id];
         self.file = constant.site.file;
-        let message = format!("the value of `{}` needs itself", constant.name);
+        let message = format!("the value of `{}` depends on itself", constant.name);
         let problem = Diagnostic::new(Code::ConstantCycle, constant.site.span, message);
         self.report(problem);
         self.file = 0;

@@ -1,8 +1,7 @@
 //! Warnings about the program's states: the values of its enum variables, and the actions between them.
 //!
-//! A state is entered where the variable gets it by name. It is left by actions and handlers that give
-//! the variable another value and may do so in that state. Of a variable that gets a value which cannot be
-//! told nothing is said.
+//! A state is entered by an assignment of its name. It is left by actions and handlers that assign another value and
+//! may run in that state. A variable that gets an unknown value has no such warnings.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
@@ -15,13 +14,13 @@ use super::transitions::{Given, Transitions, first_values};
 use crate::diagnostic::{Code, Diagnostic, has_errors};
 use crate::ir::*;
 
-/// What the program does with its enum variables.
+/// The uses of the program's enum variables.
 struct Control {
     /// By action.
     actions: Vec<Transitions>,
     /// By handler.
     handlers: Vec<Transitions>,
-    /// The values that each variable gets, for those of which all can be told.
+    /// The values that each variable gets, for those of which all can be determined.
     entered: BTreeMap<VariableId, BTreeSet<u16>>,
     /// For each variable the actions that write it.
     writers: BTreeMap<VariableId, Vec<usize>>,
@@ -97,7 +96,7 @@ impl Checker {
     ) {
         let roles = &self.program.roles;
         let is_role = (roles.as_ref()).is_some_and(|roles| roles.variable == variable);
-        // A variable that is set once, or that decides nothing, is no control variable.
+        // A variable that is set once, or that decides nothing, is not a control variable.
         let is_read = self.usage.used.contains(&Entity::Variable(variable));
         let Type::Enum(id) = self.program[variable].ty else {
             return;

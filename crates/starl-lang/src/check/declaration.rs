@@ -32,7 +32,7 @@ pub(super) fn constructor(node: &ast::BindingDeclaration) -> Option<(String, Spa
 }
 
 impl Checker {
-    /// Checks what is in declarations.
+    /// Checks the contents of declarations.
     pub fn check_declarations(&mut self) {
         for id in self.constants_by_need() {
             self.check_constant(id);
@@ -144,8 +144,7 @@ impl Checker {
         let message = format!("`{}` may end without a result", function.name);
         let problem = Diagnostic::new(Code::MissingReturn, function.site.span, message);
         let expected = self.name_of(&function.result);
-        let note =
-            "every way through a function ends with `return`; the last statement is a good place";
+        let note = "every path through a function must end with `return`";
         self.report(
             problem
                 .expected(super::report::article(&expected))
@@ -185,11 +184,11 @@ impl Checker {
             |pair: &ast::BinaryExpression| pair.operator() == Some(ast::BinaryOperator::Range);
         match range {
             ast::Expression::Binary(pair) if is_range(&pair) => Some([
-                self.expect(pair.left(), ty, "the least value"),
+                self.expect(pair.left(), ty, "the lower bound"),
                 self.expect(pair.right(), ty, "the end of the range"),
             ]),
             other => {
-                let message = "this is no range";
+                let message = "this is not a valid range";
                 let problem = Diagnostic::new(Code::InvalidRange, other.span(), message);
                 self.report(problem.note("`a..b` is from `a` to before `b`"));
                 None
@@ -210,11 +209,11 @@ impl Checker {
             });
             if initial.is_none() && !self.program.has_default(&ty) && ty != Type::Error {
                 let name = self.program[id].name.clone();
-                let message = format!("`{name}` needs a first value");
+                let message = format!("`{name}` needs an initial value");
                 let problem = Diagnostic::new(Code::NoDefault, self.program[id].site.span, message);
                 let of = self.name_of(&ty);
                 let note =
-                    format!("there is no {of} to begin with; or let it be `{of}?`, none at first");
+                    format!("{of} has no default; or declare it as `{of}?`, which begins as none");
                 self.report(problem.note(note));
             }
             let variable = &mut self.program[id];
@@ -276,7 +275,7 @@ impl Checker {
                 Some(checker.expect(Some(value), &ty, "the first value"))
             });
             if let Some(value) = initial.as_ref().filter(|_| node.is_single_writer()) {
-                let message = "a single-writer variable has no first value";
+                let message = "a single-writer variable has no initial value";
                 let problem = Diagnostic::new(Code::WrongType, value.span, message);
                 self.report(
                     problem.note("an element is none until its robot has written it, as in `init`"),
@@ -319,11 +318,11 @@ impl Checker {
 
     fn unknown_primitive(&mut self, node: &ast::BindingDeclaration) {
         let Some((word, span)) = constructor(node) else {
-            // What is no call at all is reported by the parser.
+            // The parser reports anything that is not a call.
             if let Some(ast::Expression::Call(call)) = node.value()
                 && let Some(callee) = call.callee()
             {
-                let message = "this is no primitive";
+                let message = "this is not a primitive";
                 let problem = Diagnostic::new(Code::UnknownPrimitive, callee.span(), message);
                 let names = PRIMITIVES.iter().map(Primitive::name);
                 self.report(problem.note(format!("there are {}", super::report::listed(names))));

@@ -1,4 +1,4 @@
-//! Handlers: of messages, and of what primitives report. Those of inputs are in `input`.
+//! Handlers of messages and of primitives' events. Handlers of inputs are in `input`.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -17,7 +17,7 @@ use crate::ir::{Event, Handler, Local, LocalId, RecordId, Statement, StatementKi
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast;
 
-/// What a handler gets: the names of the parts, and their types.
+/// The parameters of a handler: their names and types.
 type Parts = Vec<(String, Type)>;
 
 impl Checker {
@@ -44,7 +44,7 @@ impl Checker {
             None => self.message_event(first),
         };
         let names: Vec<ast::Name> = node.parameters().collect();
-        // With a part too few or too many it cannot be known which name is for which.
+        // With a part too few or too many the meaning of the names is unknown.
         let parts =
             parts.filter(|parts| self.check_parts(&event, parts, names.len(), span, first.text()));
         let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
@@ -54,7 +54,7 @@ impl Checker {
                 let ty = part.map_or(Type::Error, |(_, ty)| ty.clone());
                 let local = checker.declare_local(name, ty, None);
                 if let Some(local) = local {
-                    checker.body.fixed[local.index()] = Some("what the handler was given");
+                    checker.body.fixed[local.index()] = Some("a parameter of the handler");
                 }
                 parameters.push(local);
             }
@@ -129,14 +129,14 @@ impl Checker {
                 did_you_mean(problem, span, name, names)
             }
         };
-        self.report(match (entity, &problem.mend) {
+        self.report(match (entity, &problem.fix) {
             (Some(Entity::Binding(_)), _) => {
-                problem.note("what a primitive reports is named too: `on name.event(...)`")
+                problem.note("an event of a primitive is written `on name.event(...)`")
             }
             (None, None) => problem
                 .note(format!("a message is declared: `message {name}(x: Int)`"))
                 .note(format!(
-                    "what an operator orders is handled by `on input {name}(x: Int)`"
+                    "an operator's order is handled by `on input {name}(x: Int)`"
                 )),
             _ => problem,
         });
@@ -214,7 +214,7 @@ impl Checker {
         };
         let Some(event) = kind.event(name.text()) else {
             let at = Span::from(name.text_range());
-            let message = format!("{} reports no `{}`", kind.name(), name.text());
+            let message = format!("{} has no event `{}`", kind.name(), name.text());
             let problem = Diagnostic::new(Code::UnknownEvent, at, message);
             let names = || kind.events.iter().map(EventSignature::name);
             let problem = did_you_mean(problem, at, name.text(), names());
@@ -227,9 +227,9 @@ impl Checker {
                 );
                 problem.note(form)
             } else if kind.events.is_empty() {
-                problem.note("it reports nothing by itself; its flags are asked for in guards")
+                problem.note("it has no events; read its flags in guards")
             } else {
-                problem.note(format!("it reports {}", listed(names())))
+                problem.note(format!("its events are {}", listed(names())))
             });
             return (Event::Error, None);
         };
@@ -271,11 +271,9 @@ impl Checker {
         let problem = problem.found(counted(given, "name"));
         self.report(match event {
             Event::Message(_) if given + 1 == parts.len() => {
-                problem.note("the first is the sender; what is not wanted is `_`")
+                problem.note("the first is the sender; write `_` for an unused one")
             }
-            _ => problem.note(format!(
-                "for a part of `{name}` that is not wanted write `_`"
-            )),
+            _ => problem.note(format!("write `_` for an unused part of `{name}`")),
         });
         false
     }

@@ -119,16 +119,16 @@ impl Checker {
             Some(ty @ Type::Optional(_)) => made(ExpressionKind::None, ty.clone(), span),
             Some(ty) => {
                 let problem =
-                    Diagnostic::new(Code::WrongType, span, "`none` is no value of this type");
+                    Diagnostic::new(Code::WrongType, span, "`none` is not a value of this type");
                 let name = self.name_of(ty);
                 let note = format!("only an optional, `{name}?`, may be none");
                 self.report(problem.expected(name).found("none").note(note));
                 broken(span)
             }
             None => {
-                let message = "it cannot be known what is none here";
+                let message = "the type of this `none` is unknown";
                 let problem = Diagnostic::new(Code::UnclearType, span, message);
-                self.report(problem.note("say it with a type, as in `let x: Point? = none`"));
+                self.report(problem.note("declare its type, as in `let x: Point? = none`"));
                 broken(span)
             }
         }
@@ -184,9 +184,9 @@ impl Checker {
             let value = 0_i64.wrapping_sub_unsigned(value);
             return made(ExpressionKind::Int(value), Type::Int, span);
         }
-        // What is negated is there.
+        // The operand of a negation is never none.
         let expected = expected.map(comparable);
-        let operand = self.value(node.operand(), expected.as_ref(), "what is negated");
+        let operand = self.value(node.operand(), expected.as_ref(), "the operand");
         match operand.ty {
             Type::Int | Type::Point => {
                 let ty = operand.ty.clone();
@@ -200,7 +200,7 @@ impl Checker {
             },
             Type::Error => broken(span),
             Type::Duration => {
-                let message = "there are no negative durations";
+                let message = "durations cannot be negative";
                 self.error(Code::OperatorTypes, span, message);
                 broken(span)
             }
@@ -283,7 +283,7 @@ impl Checker {
         let robot = self.body.robot;
         // A value is one robot's also where it asks about all.
         self.body.robot = robot.filter(|_| self.value.is_some());
-        let condition = self.expect(node.condition(), &Type::Bool, "what is said of the robots");
+        let condition = self.expect(node.condition(), &Type::Bool, "the condition");
         self.body.robot = robot;
         self.body.leave(mark);
         let kind = ExpressionKind::Quantifier {

@@ -1,14 +1,13 @@
-//! Whether a condition can hold, as far as can be told from the program's text and the value of one
-//! enum variable.
+//! Whether a condition can hold, judged from the program's text and the value of one enum variable.
 
 use alloc::collections::BTreeSet;
 
 use crate::ir::{Expression, ExpressionKind, Operator, Type, VariableId};
 
-/// What is assumed: the value of an enum variable.
+/// An assumption: the value of an enum variable.
 pub(crate) type Assumption = Option<(VariableId, u16)>;
 
-/// Whether the condition holds; none if that depends on more than what is assumed.
+/// Whether the condition holds; none if that depends on more than the assumption.
 pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool> {
     match &condition.kind {
         ExpressionKind::Bool(value) => Some(*value),
@@ -52,7 +51,7 @@ pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool>
     }
 }
 
-/// Which variant an expression of an enum is, if that can be told.
+/// Which variant an expression of an enum is, if that can be determined.
 fn variant(expression: &Expression, assumed: Assumption) -> Option<u16> {
     if !matches!(expression.ty, Type::Enum(_)) {
         return None;

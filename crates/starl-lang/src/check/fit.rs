@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::{Expression, ExpressionKind, Type};
 use crate::syntax::ast;
 
-/// Whether the types are one, errors aside.
+/// Whether the types are equal, where errors equal every type.
 pub(super) fn same(a: &Type, b: &Type) -> bool {
     match (a, b) {
         (Type::Error, _) | (_, Type::Error) => true,
@@ -22,8 +22,7 @@ pub(super) fn same(a: &Type, b: &Type) -> bool {
 }
 
 impl Checker {
-    /// Checks an expression whose type must be `expected`; `role` says what it is, such as "the
-    /// condition".
+    /// Checks an expression whose type must be `expected`; `role` is its phrase in messages, such as "the condition".
     pub fn expect(
         &mut self,
         expression: Option<ast::Expression>,
@@ -62,7 +61,7 @@ impl Checker {
 
     /// A range where a value must stand.
     pub fn misplaced_range(&mut self, span: crate::diagnostic::Span) -> Expression {
-        let problem = Diagnostic::new(Code::MisplacedRange, span, "a range is no value");
+        let problem = Diagnostic::new(Code::MisplacedRange, span, "a range is not a value");
         self.report(problem.note("it stands after `in`: in `for i in 0..n` or `x in 0..n`"));
         broken(span)
     }
@@ -84,7 +83,7 @@ impl Checker {
                 if *expected == Type::Bool {
                     return problem.note("ask with `some x = ...`, or with `!= none`");
                 }
-                problem.note("ask first with `if some x = ...`, say what it is then with `?? ...`, or end it here with `!` if it cannot be")
+                problem.note("test it with `if some x = ...`, give a default with `?? ...`, or assert it with `!`")
             }
             (Type::Int, Type::Float) => {
                 let problem = problem(Code::MixedNumbers, format!("{role} is an Int, not a Float"));

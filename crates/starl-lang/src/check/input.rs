@@ -1,4 +1,4 @@
-//! Inputs: handlers of what operators tell robots, `on input go_home(to: Point)`.
+//! Inputs: handlers of operators' orders, `on input go_home(to: Point)`.
 
 use alloc::format;
 use alloc::string::String;
@@ -43,7 +43,9 @@ impl Checker {
             let problem = Diagnostic::new(Code::HandlerParameters, span, message);
             let problem = problem.expected("`on input way_points()`");
             let problem = problem.found(counted(fields.len(), "field"));
-            self.report(problem.note("it tells that they have changed: read `way_points()` anew"));
+            self.report(
+                problem.note("the event has no values; read the new waypoints with `way_points()`"),
+            );
         }
         self.compare_with_others(role, &text, &fields, span);
         let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
@@ -53,7 +55,7 @@ impl Checker {
                 let unread = Some(Code::UnusedLocal);
                 let local = name.and_then(|name| checker.declare_local(&name, ty.clone(), unread));
                 if let Some(local) = local {
-                    checker.body.fixed[local.index()] = Some("what the handler was given");
+                    checker.body.fixed[local.index()] = Some("a parameter of the handler");
                 }
                 parameters.push(local);
             }
@@ -79,9 +81,9 @@ impl Checker {
                 (name.text, name.span)
             });
             if name == "_" {
-                let message = "a field of an input has a name";
+                let message = "a field of an input needs a name";
                 let problem = Diagnostic::new(Code::HandlerParameters, span, message);
-                self.report(problem.note("leave out the fields that are not wanted"));
+                self.report(problem.note("omit unused fields"));
             }
             let is_known = ty == Type::Error || is_input_field(&ty);
             if let Some(written) = parameter.ty().filter(|_| !is_known) {

@@ -1,4 +1,4 @@
-//! Where the files that a program names come from: imported libraries and models.
+//! The source of the files that a program names: imported libraries and models.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -17,7 +17,7 @@ pub trait Libraries {
         Err("there is no such file".into())
     }
 
-    /// The names of those that can be told, for editors to suggest.
+    /// The names of those that can be determined, for editors to suggest.
     fn names(&self) -> Vec<String> {
         Vec::new()
     }

@@ -1,4 +1,4 @@
-//! Loading: the program, the prelude and what they import, each read once.
+//! Loading: the program, the prelude and their imports, each read once.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
@@ -31,7 +31,7 @@ pub(super) fn load(source: &str, parsed: Parse, libraries: &dyn Libraries) -> Ch
     let is_library = loader.is_library(0);
     let mut way = Vec::new();
     if is_library {
-        // A library that imports itself by way of others is in a cycle too.
+        // A library that imports itself through others is in a cycle too.
         loader.by_name.insert(name.clone(), 0);
         way.push(name);
     }
@@ -103,14 +103,14 @@ impl Loader<'_> {
             let problem = Diagnostic::new(Code::ImportCycle, span, message);
             self.report(
                 file,
-                problem.note(format!("at most {DEEPEST} stand in a row")),
+                problem.note(format!("at most {DEEPEST} may be in a row")),
             );
             return None;
         }
         let Some(source) = self.libraries.source(name) else {
             let message = format!("there is no library `{name}`");
             let problem = Diagnostic::new(Code::UnknownLibrary, span, message);
-            let note = format!("it is looked for in `{name}.starl` beside this file");
+            let note = format!("the file `{name}.starl` must be beside this file");
             self.report(file, problem.note(note));
             return None;
         };
@@ -119,7 +119,7 @@ impl Loader<'_> {
         if !self.is_library(number) {
             let message = format!("`{name}` is a program, not a library");
             let problem = Diagnostic::new(Code::UnknownLibrary, span, message);
-            self.report(file, problem.note("what is imported begins with `library`"));
+            self.report(file, problem.note("an imported file begins with `library`"));
         }
         self.by_name.insert(name.into(), number);
         way.push(name.into());

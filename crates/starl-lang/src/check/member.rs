@@ -1,4 +1,4 @@
-//! What stands after a dot: fields, coordinates, flags, variants, and what libraries have.
+//! Names after a dot: fields, coordinates, flags, variants, and declarations of libraries.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -17,7 +17,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
 use crate::syntax::ast::{self, AstNode};
 
-/// What people write who know other languages.
+/// Names from other languages, with StarL's.
 const FOREIGN: &[(&str, &str)] = &[
     ("length", "size"),
     ("len", "size"),
@@ -44,8 +44,7 @@ const FOREIGN: &[(&str, &str)] = &[
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Checker {
-    /// What the expression names, if that is something with parts rather than a value: a library, a
-    /// primitive or an enum.
+    /// The library, primitive or enum that the expression names; `None` for a value.
     pub fn namespace(&mut self, base: &ast::Expression) -> Option<Entity> {
         match base {
             ast::Expression::Name(node) => {
@@ -107,7 +106,7 @@ impl Checker {
         }
     }
 
-    /// What a library declares under a name, for others to use.
+    /// The public declaration of this name in a library.
     pub fn library_entity(&mut self, file: u32, name: &str, at: Span) -> Option<Entity> {
         if self.is_probe(at) {
             self.note_probe(Surroundings::Part(Symbol::File(file)));
@@ -285,8 +284,7 @@ impl Checker {
         if self.body.place != Where::Property {
             let message = format!("`{name}` of another robot is not known here");
             let problem = Diagnostic::new(Code::ForeignVariable, at, message);
-            let note =
-                "robots know of each other what they tell: by messages, or by `allread` variables";
+            let note = "robots learn about each other by messages, or by `allread` variables";
             self.report(problem.note(note));
             return broken(span);
         }
@@ -328,7 +326,7 @@ impl Checker {
         found
     }
 
-    /// Notes what a property says of a robot.
+    /// Records an attribute of a robot in a property.
     pub fn resolve_robot_member(&mut self, at: Span, member: RobotMember) {
         self.resolve(
             at,
@@ -363,8 +361,7 @@ impl Checker {
             let inner = self.name_of(inner);
             let problem = problem.expected(inner).found(found);
             self.report(
-                problem
-                    .note("ask first with `if some x = ...`, or say what it is then with `?? ...`"),
+                problem.note("test it with `if some x = ...`, or give a default with `?? ...`"),
             );
             return;
         }

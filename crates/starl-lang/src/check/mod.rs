@@ -1,12 +1,12 @@
-//! The static checker: from a tree to a resolved, typed program, and all that is wrong with it.
+//! The static checker: from a tree to a resolved, typed program and its problems.
 //!
-//! [`check`] never fails: it gives a program, perhaps with errors in it, and diagnostics of each file.
-//! A part with an error gets the type [`Type::Error`], which fits everywhere, so that one mistake is reported once.
+//! [`check`] never fails: it returns a program, which may contain errors, and the diagnostics of each file. A part with
+//! an error gets the type [`Type::Error`], which fits everywhere, so that a mistake is reported once.
 //!
-//! The way is: load the files (`load`), note what is declared (`collect`), give declarations their types
-//! (`types`), check what is in them (`declaration`, `statement`, `expression`, `property`), then look at
-//! the whole for what cannot be meant (`usage`, `control`). Types flow down as well as up: an expression is
-//! checked with the type that is expected of it, where that is known, and gives its type.
+//! The steps are: load the files (`load`), collect the declarations (`collect`), resolve their types (`types`), check
+//! their contents (`declaration`, `statement`, `expression`, `property`), then look for probable mistakes in the whole
+//! program (`usage`, `control`). Types flow down and up: an expression is checked with the expected type, if known, and
+//! returns its own type.
 
 mod arguments;
 mod arithmetic;
@@ -79,7 +79,7 @@ pub struct CheckedFile {
     pub source: String,
     /// Its tree.
     pub parse: Parse,
-    /// What is wrong with it, reading included, by rising place.
+    /// All problems, syntax errors included, sorted by position.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -90,12 +90,12 @@ pub struct Checked {
     pub program: Program,
     /// The files, by the numbers that [`crate::ir::Site`] uses: 0 is the program, 1 the prelude.
     pub files: Vec<CheckedFile>,
-    /// What the names of the files stand for.
+    /// The meanings of all names in the files.
     pub resolutions: Resolutions,
 }
 
 impl Checked {
-    /// What is wrong with the program itself, by rising place.
+    /// The problems of the program itself, sorted by position.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.files[0].diagnostics
@@ -129,8 +129,8 @@ pub fn check_parsed(source: &str, parse: Parse, libraries: &dyn Libraries) -> Ch
     checker.finish()
 }
 
-/// What stands around the name that begins at byte `at` of a program or a library, as far as the
-/// checker comes to know of it. The name must be one that nothing else has.
+/// The syntactic context of the name that begins at byte `at` of a program or a library, as far as the checker
+/// determines it. No declaration may have this name.
 #[must_use]
 pub fn surroundings(
     source: &str,

@@ -12,7 +12,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, Expression, ExpressionKind, Model, Operator};
 use starl_policy::Network;
 
-/// A model is asked about a list whose length is known.
+/// An evaluation of a model with a list of known length.
 pub(super) struct Evaluation {
     binding: BindingId,
     numbers: usize,
@@ -78,7 +78,7 @@ impl Checker {
         }
     }
 
-    /// Reads a model and keeps it. An error is what is wrong, and what to do.
+    /// Reads a model and keeps it. An error has a message, and a fix.
     fn read_model(
         &mut self,
         path: &str,

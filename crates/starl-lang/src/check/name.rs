@@ -1,7 +1,7 @@
-//! What a bare name stands for, as a value.
+//! The meaning of a bare name, as a value.
 //!
-//! A local hides everything. Then, where an enum is expected, its variants come first; then what the
-//! file declares, the variant of the one enum that has it, and what every program has.
+//! A local hides everything. Then, where an enum is expected, its variants come first; then the declarations of the
+//! file, the variant of the only enum that has it, and the built-in names.
 
 use alloc::format;
 use alloc::string::String;
@@ -18,7 +18,7 @@ use super::tables::{BUILTINS, Builtin, Primitive, Purity};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{EnumId, Expression, ExpressionKind, RobotMember, Type};
 
-/// What a name stands for.
+/// The meaning of a name.
 pub(super) enum Meaning {
     Local(crate::ir::LocalId),
     Entity(Entity),
@@ -33,7 +33,7 @@ pub(super) enum Meaning {
 }
 
 impl Checker {
-    /// What the name stands for, where `expected` is expected.
+    /// The meaning of the name where the type `expected` is expected.
     pub fn meaning(&self, name: &str, expected: Option<&Type>) -> Meaning {
         if let Some(local) = self.body.find(name) {
             return Meaning::Local(local);
@@ -202,9 +202,9 @@ impl Checker {
         if self.body.place != Where::Property || !OF_SENSORS.contains(&name) {
             return false;
         }
-        let message = format!("a property cannot ask for `{name}`");
+        let message = format!("a property cannot use `{name}`");
         let problem = Diagnostic::new(Code::InvalidProperty, span, message);
-        let note = "only a robot itself reads its sensors; keep what matters in a variable";
+        let note = "only the robot itself reads its sensors; store the reading in a variable";
         self.report(problem.note(note));
         true
     }
@@ -218,20 +218,20 @@ impl Checker {
         }
         let what = place.what();
         if purity == Purity::Property {
-            let message = format!("only a property can ask for `{name}`");
+            let message = format!("only a property can use `{name}`");
             let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
             self.report(problem.note("no robot knows it"));
         } else if purity == Purity::Query {
-            let message = format!("{what} cannot ask for `{name}`");
+            let message = format!("{what} cannot use `{name}`");
             let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
             self.report(match place {
                 Where::Function => problem.note(
-                    "a function depends on its arguments and on constants; hand the value to it",
+                    "a function depends on its arguments and on constants; pass the value to it",
                 ),
                 Where::Binding => {
                     problem.note("it is made of constants, parameters, `me` and `peers`")
                 }
-                _ => problem.note("it is the same for all robots and all runs"),
+                _ => problem.note("a constant is the same for all robots and all runs"),
             });
         } else {
             let message = format!("{what} cannot call `{name}`, which does something");
@@ -297,7 +297,7 @@ impl Checker {
         broken(span)
     }
 
-    /// Adds the name that was probably meant, among all that can be seen here.
+    /// Suggests the name that was probably meant, among all visible names.
     pub fn suggest(&self, problem: Diagnostic, name: &str, span: Span) -> Diagnostic {
         if let Some((_, meant)) = FOREIGN.iter().find(|(word, _)| *word == name) {
             return problem.replace(format!("did you mean `{meant}`?"), span, *meant);
@@ -314,7 +314,7 @@ impl Checker {
     }
 }
 
-/// What people write who know the thesis, Koord or other languages.
+/// Names from the thesis, Koord and other languages, with StarL's.
 const FOREIGN: &[(&str, &str)] = &[
     ("pid", "me"),
     ("self", "me"),
@@ -332,7 +332,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("println", "log"),
 ];
 
-/// What a robot's sensors measure.
+/// Readings of a robot's sensors.
 const OF_SENSORS: [&str; 6] = [
     "bumped",
     "ranges",
@@ -342,7 +342,7 @@ const OF_SENSORS: [&str; 6] = [
     "thing_name",
 ];
 
-/// What a property may say of a robot besides its variables.
+/// The attributes of a robot that a property may read besides its variables.
 pub(super) fn robot_member(name: &str) -> Option<RobotMember> {
     Some(match name {
         "position" => RobotMember::Position,

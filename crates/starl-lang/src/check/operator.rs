@@ -50,9 +50,9 @@ impl Checker {
                 // Arithmetic never gives none, nor does it take one.
                 let expected = expected.map(comparable);
                 let left = node.left();
-                let left = self.value(left, expected.as_ref(), "what stands before the operator");
+                let left = self.value(left, expected.as_ref(), "the left operand");
                 let hint = left.ty.clone();
-                let right = self.value(node.right(), Some(&hint), "what stands after the operator");
+                let right = self.value(node.right(), Some(&hint), "the right operand");
                 self.arithmetic(operator, left, right, span)
             }
         }
@@ -65,7 +65,7 @@ impl Checker {
         expected: Option<&Type>,
     ) -> Expression {
         let hint = expected.cloned().map(Type::optional);
-        let optional = self.value(node.left(), hint.as_ref(), "what may be none");
+        let optional = self.value(node.left(), hint.as_ref(), "the optional");
         let inner = match &optional.ty {
             Type::Optional(inner) => (**inner).clone(),
             Type::Error => {
@@ -73,7 +73,7 @@ impl Checker {
                 return broken(span);
             }
             ty => {
-                let message = "`??` needs an optional before it, and this is always there";
+                let message = "`??` needs an optional before it, and this always has a value";
                 let problem = Diagnostic::new(Code::NotOptional, optional.span, message);
                 let found = self.name_of(ty);
                 self.report(problem.found(found));
@@ -86,13 +86,13 @@ impl Checker {
         } else {
             inner.clone()
         };
-        let default = self.value(node.right(), Some(&hint), "what it is if there is none");
+        let default = self.value(node.right(), Some(&hint), "the default");
         let ty = if matches!(default.ty, Type::Optional(_)) {
             optional.ty.clone()
         } else {
             inner
         };
-        let default = self.fit(default, &ty, "what it is if there is none");
+        let default = self.fit(default, &ty, "the default");
         let kind = ExpressionKind::Default {
             optional: Box::new(optional),
             default: Box::new(default),

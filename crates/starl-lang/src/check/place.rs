@@ -1,4 +1,4 @@
-//! What can be written: variables and their parts.
+//! Assignable places: variables and their parts.
 
 use alloc::format;
 use alloc::string::String;
@@ -35,7 +35,7 @@ fn no_place(span: Span) -> Place {
 }
 
 impl Checker {
-    /// The target of an assignment, or of a method that changes what it is called on.
+    /// The target of an assignment, or of a method that changes its receiver.
     pub fn place(&mut self, target: &ast::Expression) -> Place {
         let span = target.span();
         match target {
@@ -50,7 +50,7 @@ impl Checker {
                 // As the target of an assignment the parser reports it.
                 let value = self.infer(Some(target.clone()), None);
                 if value.ty != Type::Error {
-                    let message = "this is no variable, so that a change of it would be lost";
+                    let message = "this is not a variable, so the change would be lost";
                     self.error(Code::NotWritable, span, message);
                 }
                 no_place(span)
@@ -97,7 +97,7 @@ impl Checker {
             self.note_probed_value(None);
         }
         if Builtin::named(name).is_some() {
-            let message = format!("`{name}` is what the robot knows and cannot be changed");
+            let message = format!("`{name}` is knowledge of the robot and cannot be changed");
             self.error(Code::NotWritable, span, message);
         } else if !self.may_be_unread(name) {
             let message = format!("there is no variable `{name}`");
@@ -110,8 +110,8 @@ impl Checker {
                 .map(|(name, _)| name.as_str());
             let locals = self.body.names.iter().map(|(name, _)| name.as_str());
             let problem = super::report::did_you_mean(problem, span, name, locals.chain(variables));
-            self.report(match problem.mend {
-                None => problem.note(format!("a new one is made with `let {name} = ...`")),
+            self.report(match problem.fix {
+                None => problem.note(format!("declare a new one with `let {name} = ...`")),
                 Some(_) => problem,
             });
         }
@@ -228,7 +228,7 @@ impl Checker {
             let message = format!("a robot writes only its own element of `{name}`");
             let problem = Diagnostic::new(Code::ForeignElement, index.span, message);
             let problem = problem.replace("write `me`", index.span, "me");
-            let note = "what all robots write is `allwrite`; what one tells another is a message";
+            let note = "use `allwrite` for a variable that all robots write, or send a message";
             self.report(problem.note(note));
             return no_place(span);
         }
@@ -241,7 +241,7 @@ impl Checker {
         };
         if let Some(entity) = self.namespace(&base) {
             if entity != Entity::Broken {
-                let message = format!("what {} has cannot be changed", entity.what());
+                let message = format!("the attributes of {} cannot be changed", entity.what());
                 self.error(Code::NotWritable, span, message);
             }
             return no_place(span);
@@ -318,9 +318,9 @@ impl Checker {
                 return no_place(span);
             }
             Root::Shared(id) if self.nodes.shared[id.index()].value().is_none() => {
-                let message = "this may be none, so that there is no part to write";
+                let message = "this may be none, so it has no part to assign";
                 let problem = Diagnostic::new(Code::MayBeNone, whole.span, message);
-                self.report(problem.note("it never is if the variable has a first value"));
+                self.report(problem.note("it never is none if the variable has an initial value"));
                 return no_place(span);
             }
             _ => {}

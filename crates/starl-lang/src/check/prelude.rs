@@ -1,6 +1,6 @@
-//! What every program has without importing it, written in the language itself.
+//! The prelude: declarations that every program has without an import, written in the language itself.
 
-/// The text of the prelude, a library whose declarations need no `prelude.` before them.
+/// The text of the prelude, a library whose declarations are used without `prelude.`.
 pub const PRELUDE: &str = include_str!("prelude.starl");
 
 /// The number of its file.

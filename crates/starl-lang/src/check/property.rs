@@ -48,7 +48,7 @@ impl Checker {
                 };
                 let consequence = node
                     .consequence()
-                    .map(|then| checker.expect(Some(then), &Type::Bool, "what it leads to"));
+                    .map(|then| checker.expect(Some(then), &Type::Bool, "the consequence"));
                 let claim = checker.claim(node, condition, consequence, &mut robots);
                 let recovery = node
                     .recovery()
@@ -96,9 +96,9 @@ impl Checker {
             },
             (true, consequence) => {
                 if let Some(consequence) = consequence {
-                    let message = "`leads_to` stands after `always`";
+                    let message = "`leads_to` follows `always`";
                     let problem = Diagnostic::new(Code::InvalidProperty, consequence.span, message);
-                    let note = "`eventually` says that something happens once; `always a leads_to b`, that it does each time";
+                    let note = "`eventually` means that a condition becomes true once; `always a leads_to b`, that it does each time";
                     self.report(problem.note(note));
                 }
                 match node.is_eventually_always() {
@@ -114,7 +114,7 @@ impl Checker {
             }
             (false, None) => {
                 if let Some(within) = within {
-                    let message = "what is always true has no deadline";
+                    let message = "a condition that is always true has no deadline";
                     let problem = Diagnostic::new(Code::InvalidProperty, within.span, message);
                     let word = node.word();
                     let note = format!(
@@ -128,8 +128,8 @@ impl Checker {
     }
 }
 
-/// What is always true of all robots is always true of each: the robots of a `forall` that the
-/// property begins with.
+/// Splits an invariant of the form `forall r: ...` into a condition for each robot: removes the leading quantifiers and
+/// collects their robots.
 fn of_each_robot(condition: Expression, robots: &mut Vec<LocalId>) -> Expression {
     match condition.kind {
         ExpressionKind::Quantifier {

@@ -90,7 +90,7 @@ impl Checker {
         self.check_size(id);
     }
 
-    /// Reports a record whose values would have too many parts. Those that it is made of come before.
+    /// Reports a record whose values would have too many parts. Its parts must be checked before.
     pub fn check_size(&mut self, id: RecordId) {
         let fields = self.program[id].fields.iter();
         let size = 1 + fields.map(|field| self.size(&field.ty)).sum::<u32>();
@@ -100,12 +100,12 @@ impl Checker {
             self.file = site.file;
             let problem = Diagnostic::new(Code::TooLarge, site.span, message);
             let note = format!(
-                "with the parts of its parts there are {size}, and at most {LARGEST}; lists and maps count as one"
+                "it has {size} parts including nested ones, and at most {LARGEST} are allowed; a list or a map counts as one"
             );
             self.report(problem.note(note));
             self.program[id].fields.clear();
         }
-        // What is made of one that is too large is not to blame.
+        // Records that contain it are not reported again.
         self.sizes.insert(id, if size > LARGEST { 1 } else { size });
     }
 

@@ -1,4 +1,4 @@
-//! How the checker tells of problems: whatever concerns an error that was reported is not told.
+//! How the checker reports problems: consequences of a reported error are not reported.
 
 use alloc::collections::BTreeSet;
 use alloc::format;
@@ -8,24 +8,24 @@ use alloc::vec::Vec;
 use super::CheckedFile;
 use super::asked;
 use super::state::Checker;
-use crate::diagnostic::{Code, Diagnostic, Edit, LineIndex, Mend, Severity, Span, closest};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, LineIndex, Severity, Span, closest};
 use crate::ir::{Expression, ExpressionKind, Type};
 
 impl Checker {
-    /// Tells of a problem of the present file.
+    /// Reports a problem of the current file.
     pub fn report(&mut self, mut problem: Diagnostic) {
         let file = &mut self.files[self.file as usize];
-        if problem.code == Code::MayBeNone && problem.mend.is_none() {
+        if problem.code == Code::MayBeNone && problem.fix.is_none() {
             let root = file.checked.parse.syntax();
             if let Some(asked) = asked::before(&root, &file.checked.source, problem.span) {
-                let words = "that it is not none is asked here, but the value gets no name";
-                problem = problem.label(asked.span, words).mend(asked.mend);
+                let words = "this tests for none, but does not name the value";
+                problem = problem.label(asked.span, words).fix(asked.fix);
             }
         }
         file.checked.diagnostics.push(problem);
     }
 
-    /// Tells of a problem in a few words.
+    /// Reports a problem with a short message.
     pub fn error(&mut self, code: Code, span: Span, message: impl Into<String>) {
         self.report(Diagnostic::new(code, span, message));
     }
@@ -40,15 +40,14 @@ impl Checker {
         span.of(&self.files[self.file as usize].checked.source)
     }
 
-    /// Whether the word stands in a part of the file that could not be read, so that it may be
-    /// declared there.
+    /// Whether the word occurs in a part of the file with syntax errors, so that it may be declared there.
     pub fn may_be_unread(&self, word: &str) -> bool {
         self.files[self.file as usize].unread.contains(word)
     }
 }
 
-/// Forgets what is wrong with lines that could not be read: it may be right once they can. A statement
-/// that does nothing was read.
+/// Drops problems in lines with syntax errors: they may disappear with them. A statement without effect has no syntax
+/// error.
 pub(super) fn forget_consequences(file: &mut CheckedFile) {
     let index = LineIndex::new(&file.source);
     let lines =
@@ -76,7 +75,7 @@ pub(super) fn made(kind: ExpressionKind, ty: Type, span: Span) -> Expression {
     Expression { kind, ty, span }
 }
 
-/// Adds the name that was probably meant as a mend.
+/// Adds the name that was probably meant as a fix.
 pub(super) fn did_you_mean<'a>(
     problem: Diagnostic,
     span: Span,
@@ -89,10 +88,10 @@ pub(super) fn did_you_mean<'a>(
     }
 }
 
-/// A mend that puts text before and after a place.
-pub(super) fn around(message: impl Into<String>, span: Span, before: &str, after: &str) -> Mend {
+/// A fix that puts text before and after a place.
+pub(super) fn around(message: impl Into<String>, span: Span, before: &str, after: &str) -> Fix {
     let edits = [(span.start, before), (span.end, after)];
-    Mend {
+    Fix {
         message: message.into(),
         edits: (edits.into_iter())
             .filter(|(_, text)| !text.is_empty())

@@ -1,7 +1,7 @@
-//! What the names of the texts stand for, as editors need it.
+//! The meanings of all names in the files, for editors.
 //!
-//! The checker notes each name as it looks at it, so that nothing is resolved a second time. Where it
-//! looks twice it notes twice. What a part with errors names is noted as far as it is known.
+//! The checker records each name when it resolves it, so that no name is resolved again for the editor. If it resolves
+//! a name twice, there are two records. Names in a part with errors are recorded if they are known.
 
 use super::scope::Entity;
 use super::state::Checker;
@@ -12,7 +12,7 @@ use crate::ir::{
     VariableId,
 };
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Symbol {
     /// An enum.
@@ -59,7 +59,7 @@ pub enum Symbol {
     Event(usize, usize),
     /// `x`, `y` or `z` of a point.
     Coordinate(&'static str),
-    /// What properties may say of every robot.
+    /// An attribute that properties may read of every robot.
     RobotMember(&'static str),
     /// The parameter of something that is built in, where an argument is given by its name: the
     /// signature as text, and the name.
@@ -79,7 +79,7 @@ impl Symbol {
         Some(Self::Member(number_of(primitive)?, number?))
     }
 
-    /// What a kind of primitive reports.
+    /// An event of a kind of primitive.
     pub(super) fn event(primitive: &'static Primitive, event: &Event) -> Option<Self> {
         let mut events = primitive.events.iter();
         let number = events.position(|other| other.name() == event.name());
@@ -93,7 +93,7 @@ fn number_of(primitive: &Primitive) -> Option<usize> {
         .position(|other| other.name() == primitive.name())
 }
 
-/// The names of all files with what they stand for.
+/// The names of all files with their meanings.
 #[derive(Clone, Debug, Default)]
 pub struct Resolutions {
     /// Names that are used, in the order in which they were looked at.
@@ -103,13 +103,13 @@ pub struct Resolutions {
 }
 
 impl Checker {
-    /// Notes what a name of the present file stands for.
+    /// Records the meaning of a name in the current file.
     pub fn resolve(&mut self, span: Span, symbol: Symbol) {
         let site = self.site(span);
         self.resolutions.uses.push((site, symbol));
     }
 
-    /// The same for what is declared.
+    /// The same for a declaration.
     pub fn resolve_entity(&mut self, span: Span, entity: Entity) {
         if let Some(symbol) = entity.symbol() {
             self.resolve(span, symbol);
@@ -135,7 +135,7 @@ impl Checker {
 }
 
 impl Entity {
-    /// What editors know it as.
+    /// The symbol of this entity for editors.
     pub fn symbol(self) -> Option<Symbol> {
         Some(match self {
             Self::Enum(id) => Symbol::Enum(id),

@@ -1,4 +1,4 @@
-//! Whether statements come to their end.
+//! Whether execution can reach the end of statements.
 
 use crate::ir::{Statement, StatementKind};
 

@@ -1,4 +1,4 @@
-//! What names stand for, outside of bodies.
+//! The meanings of names outside of bodies.
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -8,7 +8,7 @@ use crate::ir::{
     BindingId, ConstantId, EnumId, FunctionId, ParameterId, RecordId, SharedId, VariableId,
 };
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Entity {
     Enum(EnumId),
@@ -21,12 +21,12 @@ pub(super) enum Entity {
     Function(FunctionId),
     /// An imported library, by its file.
     Library(u32),
-    /// Something whose declaration has an error, so that nothing more is said of it.
+    /// A declaration with an error, about which nothing more is reported.
     Broken,
 }
 
 impl Entity {
-    /// What it is, for messages.
+    /// The phrase for messages.
     pub fn what(self) -> &'static str {
         match self {
             Self::Enum(_) => "an enum",

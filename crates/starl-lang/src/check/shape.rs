@@ -8,11 +8,11 @@ use super::state::Checker;
 use super::tables::Shape;
 use crate::ir::Type;
 
-/// What the letters of a signature stand for.
+/// The types bound to the letters of a signature.
 pub(super) type Letters = BTreeMap<u8, Type>;
 
 impl Checker {
-    /// The type that a shape stands for; none while a letter is open, and of `Any` and `Message`.
+    /// The type of a shape; none while a letter is unbound, and for `Any` and `Message`.
     pub fn shape_type(&self, shape: &Shape, letters: &Letters) -> Option<Type> {
         let part = |part: &Shape| self.shape_type(part, letters);
         Some(match shape {
@@ -28,7 +28,7 @@ impl Checker {
         })
     }
 
-    /// Whether a type is one that the shape stands for; then the letters are what they must be.
+    /// Whether a type matches the shape; binds the letters if it does.
     pub fn shape_matches(&self, shape: &Shape, of: &Type, letters: &mut Letters) -> bool {
         match (shape, of) {
             (_, Type::Error) => true,
@@ -61,7 +61,7 @@ impl Checker {
         }
     }
 
-    /// A shape as a person reads it, as far as the letters are known.
+    /// The text of a shape for messages, with the bound letters.
     pub fn shape_name(&self, shape: &Shape, letters: &Letters) -> alloc::string::String {
         use alloc::format;
         if let Some(known) = self.shape_type(shape, letters) {

@@ -1,4 +1,4 @@
-//! What the checker holds while it works.
+//! The state of the checker.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
@@ -15,7 +15,7 @@ use crate::diagnostic::{Code, Span, has_errors};
 use crate::ir::{ConstantId, EnumId, FunctionId, Program, RecordId, Site, Type};
 use crate::syntax::ast;
 
-/// A file with what it declares.
+/// A file with its declarations.
 pub(super) struct File {
     pub checked: CheckedFile,
     pub scope: Scope,
@@ -38,7 +38,7 @@ pub(super) struct Nodes {
     pub shared: Vec<ast::SharedDeclaration>,
     pub bindings: Vec<ast::BindingDeclaration>,
     pub functions: Vec<(u32, ast::FunctionDeclaration)>,
-    /// What has no name that others use, in the order of the text.
+    /// Declarations that nothing refers to by name, in the order of the text.
     pub behaviour: Vec<Behaviour>,
     pub roles: Vec<ast::RoleDeclaration>,
 }
@@ -48,7 +48,7 @@ pub(super) enum RecordNode {
     Message(ast::MessageDeclaration),
 }
 
-/// What a program does, with the role that it belongs to.
+/// A part of a program's behaviour, with its role.
 pub(super) enum Behaviour {
     Init(Option<u16>, ast::InitDeclaration),
     Action(Option<u16>, ast::ActionDeclaration),
@@ -65,17 +65,17 @@ pub(super) enum Progress {
     Done,
 }
 
-/// What depends on what, among constants and functions.
+/// A constant or function on which another may depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Needed {
     Constant(ConstantId),
     Function(FunctionId),
 }
 
-/// What is done with declarations, for the warnings.
+/// The uses of declarations, for warnings.
 #[derive(Default)]
 pub(super) struct Usage {
-    /// What is read, called or named.
+    /// Declarations that are read, called or named.
     pub used: BTreeSet<Entity>,
     /// Variables that are written.
     pub written: BTreeSet<Entity>,
@@ -98,30 +98,30 @@ pub(super) struct Checker {
     pub body: Body,
     pub usage: Usage,
     pub constants: Vec<Progress>,
-    /// What uses what: the user first.
+    /// The dependencies: the user first.
     pub needs: BTreeSet<(Needed, Needed)>,
-    /// What is being checked, if that is a constant or a function.
+    /// The constant or function that is being checked.
     pub user: Option<Needed>,
-    /// Types whose keys are to be looked at when all types are known: where, in which file.
+    /// Types whose keys must be checked when all types are known, with their positions.
     pub keys: Vec<(Site, Type)>,
     /// Which enums have a variant with this name.
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
     /// Of how many parts the records are made.
     pub sizes: BTreeMap<RecordId, u32>,
-    /// The evaluations of models whose count of numbers is known.
+    /// The evaluations of models with lists of known length.
     pub evaluations: Vec<Evaluation>,
     /// The names of the actions.
     pub actions: BTreeSet<String>,
     /// Locals that are declared to be read and are not, in the program itself.
     pub unused_locals: Vec<(Code, Span, String)>,
     pub resolutions: Resolutions,
-    /// Where a name stands in the program of which an editor wants to know what it may be.
+    /// The position of the name that an editor wants to complete.
     pub probe: Option<u32>,
-    /// What it may be.
+    /// The result: the context of that name.
     pub surroundings: Option<Surroundings>,
     /// The parameters that it may be the name of.
     pub probed_parameters: Vec<String>,
-    /// The type of values that stand in the place of properties, each about one robot.
+    /// The type of values that replace properties, each of one robot.
     pub value: Option<Type>,
 }
 
@@ -181,7 +181,7 @@ impl Checker {
 
     /// At each import of a library that has errors.
     fn report_broken_libraries(&mut self) {
-        // Libraries come after what imports them, circles aside.
+        // Libraries come after what imports them, except in circles.
         for number in (0..self.files.len()).rev() {
             let broken: Vec<(Span, String)> = (self.files[number].scope.iter())
                 .filter_map(|(name, declared)| match declared.entity {

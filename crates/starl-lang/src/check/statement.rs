@@ -108,7 +108,7 @@ impl Checker {
             Some(AssignOperator::Multiply) => BinaryOperator::Multiply,
             _ => return self.plain_assign(place, node.value()),
         };
-        // What is changed is read too, so it must be there and of a type that the operator gives back.
+        // A compound assignment also reads its target, so it must be there and of a type that the operator gives back.
         let read = match place.root {
             Root::Shared(id) if self.nodes.shared[id.index()].value().is_none() => {
                 Type::optional(place.ty.clone())
@@ -119,7 +119,7 @@ impl Checker {
         let value = self.value(node.value(), Some(&read), "the value");
         let fits = result(operator, &read, &value.ty) == Some(read.clone());
         if !fits && read != Type::Error && value.ty != Type::Error {
-            // `arithmetic` says what is wrong; where it finds nothing wrong the result is of another type.
+            // `arithmetic` reports the error; if there is no error the result is of another type.
             let left = made(ExpressionKind::Error, read.clone(), place.span);
             let joined = self.arithmetic(operator, left, value.clone(), node.span());
             self.fit(joined, &read, "the result");
@@ -209,7 +209,7 @@ impl Checker {
             (None, Some(value)) => {
                 let at = value.span();
                 self.infer(Some(value), None);
-                let message = "there is nothing here that a value could be returned to";
+                let message = "only a function returns a value";
                 let problem = Diagnostic::new(Code::ReturnValue, at, message);
                 let rest = Span::new(span.start, at.end);
                 self.report(problem.replace("write `return` alone", rest, "return"));
@@ -228,7 +228,7 @@ impl Checker {
             ExpressionKind::Primitive { member, .. } => member.purity != Purity::Effect,
             _ => true,
         };
-        // The parser reports what is no call at all.
+        // The parser reports everything that is not a call.
         let is_call = matches!(node.expression(), Some(ast::Expression::Call(_)));
         if is_idle && is_call && !value.ty.has_error() {
             let problem = Diagnostic::new(Code::UnusedValue, span, "the value of this is not used");
@@ -251,7 +251,7 @@ impl Checker {
             let message = "only the effect of an action can be atomic";
             let problem = Diagnostic::new(Code::MisplacedAtomic, word, message);
             self.report(problem.note(
-                "`init` and handlers run at once; keep what is to be done in a variable, and do it in an \
+                "`init` and handlers cannot wait; store the request in a variable, and carry it out in an \
                  action",
             ));
         }
@@ -275,11 +275,11 @@ impl Checker {
         if let Some(id) = shared.iter().find(is_open) {
             let name = self.program[*id].name.clone();
             let message = format!("this `atomic` does not keep other robots out of `{name}`");
-            let note = format!("it does if that is declared `allwrite[linearizable] {name}`");
+            let note = format!("declare it `allwrite[linearizable] {name}`");
             self.report(problem(message).note(note));
         } else if shared.iter().all(|id| self.program[*id].is_single_writer) {
             let message = "this `atomic` touches no variable that all robots write";
-            let note = "an effect runs as one in any case; `atomic` keeps other robots out";
+            let note = "an effect always runs as a whole; `atomic` is for variables that other robots write too";
             self.report(problem(message.into()).note(note));
         }
     }
@@ -303,8 +303,7 @@ impl Checker {
             );
             let note = match self.body.is_action {
                 true => {
-                    "its latest value is at hand only while others are kept out: put what uses it under \
-                     `atomic`, for which the action then waits"
+                    "its latest value is available only in an action with `atomic`: put the statements that use it under `atomic`"
                 }
                 false => {
                     "`init` and handlers cannot wait for it; use it in an action with `atomic`"
@@ -315,15 +314,15 @@ impl Checker {
     }
 }
 
-/// What was probably meant by a call whose value is dropped.
+/// The method probably intended by a call whose value is dropped.
 fn sibling(value: &Expression) -> Option<&'static str> {
     let ExpressionKind::Method { method, .. } = &value.kind else {
         return None;
     };
     match method.name() {
-        "union" | "intersection" | "difference" | "reversed" | "sorted" | "slice" => {
-            Some("it changes nothing and gives a new value; write `x = x.method()` to keep that")
-        }
+        "union" | "intersection" | "difference" | "reversed" | "sorted" | "slice" => Some(
+            "it returns a new value and does not change `x`; write `x = x.method()` to keep the value",
+        ),
         _ => None,
     }
 }

@@ -1,7 +1,7 @@
-//! What may stand at a place of the text, as editors ask for it to complete a name.
+//! The syntactic context at a position, for completing a name in an editor.
 //!
-//! The editor puts a name that nothing has, the probe, in the place of the one that is being typed, and
-//! the checker notes what it knows where it comes upon the probe.
+//! The editor replaces the name that is being typed by the probe, a name that no declaration has. The checker records
+//! the context when it reaches the probe.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -14,7 +14,7 @@ use crate::diagnostic::Span;
 use crate::ir::{Local, Type};
 use crate::syntax::ast::{self, AstNode};
 
-/// What stands around a name that is being typed.
+/// The context of a name that is being typed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surroundings {
     /// It is a value, something that is called or something that is assigned to.
@@ -23,7 +23,7 @@ pub enum Surroundings {
     Member {
         /// The type.
         of: Type,
-        /// Whether it stands in a property.
+        /// Whether it is in a property.
         in_property: bool,
     },
     /// It is a part of a library, a bound primitive or an enum.
@@ -38,14 +38,14 @@ pub enum Surroundings {
     EventOf(Symbol),
 }
 
-/// What can be seen where a value stands.
+/// The declarations in scope where a value is expected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// The locals, the innermost last.
     pub locals: Vec<Local>,
-    /// The type that is expected, if one is.
+    /// The expected type, if any.
     pub expected: Option<Type>,
-    /// What of the built-in functions and primitives may be used: those of this purity and below.
+    /// The highest purity of the built-in functions and primitives that may be used.
     pub purity: Purity,
     /// Whether the state is seen.
     pub sees_state: bool,
@@ -53,7 +53,7 @@ pub struct Reach {
     pub sees_parameters: bool,
     /// Whether bound primitives are seen.
     pub sees_primitives: bool,
-    /// Whether it stands in a property.
+    /// Whether it is in a property.
     pub in_property: bool,
     /// If it is an argument: the parameters that are not given yet.
     pub parameters: Vec<String>,
@@ -74,7 +74,7 @@ impl Checker {
         span.start <= probe && probe < span.end
     }
 
-    /// Notes what the probe may be, the first time that it is come upon.
+    /// Records the context of the probe, when it is first reached.
     pub fn note_probe(&mut self, surroundings: Surroundings) {
         self.surroundings.get_or_insert(surroundings);
     }

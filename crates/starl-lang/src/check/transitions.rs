@@ -1,8 +1,7 @@
-//! What statements do with enum variables: which values each has after them, where that can be told.
+//! The effect of statements on enum variables: the values that each may have afterwards, where they are known.
 //!
-//! Every way through the statements counts, but for branches whose condition cannot hold: with what is
-//! assumed of one variable at the start, and what the statements before gave it. In loops nothing is
-//! assumed, because there a statement may come after a later one.
+//! All paths through the statements count, except branches whose condition contradicts the value assumed at the start
+//! or the values assigned before. Inside loops no value is assumed, because a statement may run after a later one.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
@@ -10,10 +9,10 @@ use super::feasible::{Assumption, truth};
 use super::tables::Builtin;
 use crate::ir::*;
 
-/// What some statements do.
+/// The effect of some statements.
 #[derive(Default)]
 pub(crate) struct Transitions {
-    /// What becomes of the enum variables that they write.
+    /// The values given to the enum variables that they write.
     pub given: BTreeMap<VariableId, Given>,
     /// They may say that the program is at its end, has failed, or that the robot is to stop.
     pub ends: bool,
@@ -21,24 +20,24 @@ pub(crate) struct Transitions {
     pub finishes: bool,
 }
 
-/// What becomes of a variable.
+/// The values given to a variable.
 #[derive(Clone, Default)]
 pub(crate) struct Given {
     /// The values that it may get.
     pub values: BTreeSet<u16>,
-    /// It may get one that cannot be told.
+    /// It may get one that cannot be determined.
     pub is_open: bool,
     /// On some way it is not written.
     pub may_stay: bool,
 }
 
 impl Transitions {
-    /// What the statements do, whatever the variables have before.
+    /// The effect of the statements for any values of the variables before.
     pub fn of(statements: &[Statement], program: &Program) -> Self {
         Self::assuming(statements, program, None)
     }
 
-    /// What the statements do if a variable has this value before.
+    /// The effect of the statements if a variable has this value before.
     pub fn assuming(statements: &[Statement], program: &Program, assumed: Assumption) -> Self {
         let mut walk = Walk {
             program,
@@ -58,7 +57,7 @@ impl Transitions {
     }
 }
 
-/// What becomes of the variables on some ways through the statements; what is not in it stays.
+/// The values of variables on some paths through the statements; a variable that is not in the map keeps its value.
 type Ways = BTreeMap<VariableId, Given>;
 
 /// A walk through statements.
@@ -243,7 +242,7 @@ impl Walk<'_> {
     }
 }
 
-/// What becomes of the variables on the one ways or the others.
+/// The values on either of two sets of paths.
 fn joined(mut some: Ways, others: Ways) -> Ways {
     for (id, given) in &mut some {
         given.may_stay |= !others.contains_key(id);

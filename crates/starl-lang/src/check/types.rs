@@ -33,7 +33,7 @@ const BUILT_IN: &[&str] = &[
     "Map",
 ];
 
-/// What people write who know other languages.
+/// Types of other languages, with StarL's.
 const FOREIGN: &[(&str, &str)] = &[
     ("int", "Int"),
     ("integer", "Int"),
@@ -54,7 +54,7 @@ const FOREIGN: &[(&str, &str)] = &[
 ];
 
 impl Checker {
-    /// Gives all declarations their types, constants aside, which have those of their values.
+    /// Gives all declarations except constants their types; a constant has that of its value.
     pub fn resolve_types(&mut self) {
         for number in 0..self.nodes.records.len() {
             self.record_fields(RecordId(number as u32));
@@ -141,7 +141,7 @@ impl Checker {
                 if let Some(extra) = extra {
                     let mark = Span::new(span.end - extra, span.end);
                     let problem =
-                        Diagnostic::new(Code::TypeArguments, mark, "this is optional already");
+                        Diagnostic::new(Code::TypeArguments, mark, "this type is already optional");
                     self.report(problem.replace("write one `?`", mark, ""));
                 }
                 Type::optional(inner)

@@ -42,7 +42,7 @@ impl Checker {
                 // A library is there for others to use.
                 _ if self.program.is_library => {}
                 (true, false) => {
-                    let message = format!("nobody handles the message `{name}`");
+                    let message = format!("no handler receives the message `{name}`");
                     let problem = Diagnostic::new(Code::MessageNotHandled, span, message);
                     self.report(problem.note(format!("a handler begins with `on {name}(...)`")));
                 }

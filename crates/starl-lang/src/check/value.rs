@@ -1,4 +1,4 @@
-//! What is declared, as a value: where it may be read, and of which type it is.
+//! Declared names as values: where they may be read, and their types.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -39,13 +39,13 @@ impl Checker {
             Entity::Function(_) | Entity::Record(_) => {
                 let message = format!("`{name}` is {}, not a value", entity.what());
                 let problem = Diagnostic::new(Code::NoValue, span, message);
-                self.report(problem.note(format!("it is called: `{name}(...)`")));
+                self.report(problem.note(format!("call it: `{name}(...)`")));
                 broken(span)
             }
             Entity::Binding(_) | Entity::Library(_) => {
                 let message = format!("`{name}` is {}, not a value", entity.what());
                 let problem = Diagnostic::new(Code::NoValue, span, message);
-                self.report(problem.note(format!("what it has is named `{name}.something`")));
+                self.report(problem.note(format!("its declarations are named `{name}.something`")));
                 broken(span)
             }
         }
@@ -107,7 +107,7 @@ impl Checker {
             Where::Initial(_) => {
                 let message = format!("`{name}` has no value yet");
                 let problem = Diagnostic::new(Code::UsedTooEarly, span, message);
-                let note = "variables get their first values in the order of the text";
+                let note = "variables get their initial values in the order of the text";
                 self.report(problem.note(note));
                 return broken(span);
             }
@@ -135,7 +135,7 @@ impl Checker {
 
     /// Reports what is a robot's, called `member` where the robot is named, under a quantifier.
     pub fn of_no_robot(&mut self, name: &str, member: &str, span: Span) -> Expression {
-        let message = format!("it is not said of which robot `{name}` is");
+        let message = format!("`{name}` needs a robot");
         let problem = Diagnostic::new(Code::InvalidProperty, span, message);
         let robot = (self.body.names.last()).map_or("r", |(robot, _)| robot.as_str());
         let meant = format!("{robot}.{member}");
@@ -149,7 +149,7 @@ impl Checker {
         Some(self.local_value(robot, span))
     }
 
-    /// What a property says of a robot.
+    /// The attribute of a robot in a property.
     pub fn of_robot(&self, robot: Expression, member: RobotMember, span: Span) -> Expression {
         let ty = match member {
             RobotMember::Variable(id) => self.program[id].ty.clone(),
@@ -170,10 +170,10 @@ impl Checker {
         let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
         let note = match self.body.place {
             Where::Function => {
-                "a function depends on its arguments and on constants; hand the value to it"
+                "a function depends on its arguments and on constants; pass the value to it"
             }
             Where::Binding => "it is made of constants, parameters, `me` and `peers`",
-            _ => "it is the same for all robots and all runs",
+            _ => "a constant is the same for all robots and all runs",
         };
         self.report(problem.note(note));
     }
@@ -184,7 +184,7 @@ impl Checker {
             Where::Property => {
                 let message = format!("a property cannot read the shared variable `{name}`");
                 let problem = Diagnostic::new(Code::InvalidProperty, span, message);
-                let note = "robots may see different values of it; say it of their own variables";
+                let note = "robots may see different values of it; use their own variables";
                 self.report(problem.note(note));
                 return broken(span);
             }

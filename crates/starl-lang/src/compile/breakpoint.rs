@@ -9,11 +9,12 @@ use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::ir::Type;
 use crate::machine::{Bytecode, Claim};
 
-/// Compiles a program, which has no errors, with one property in the place of all of its own: that the condition
-/// comes true. It is about each robot if it has no quantifier, else about all robots that run the program.
+/// Compiles a program without errors, with one property in place of its own: that the condition becomes true. The
+/// property is judged for each robot if it has no quantifier, else for all robots that run the program.
 ///
 /// # Errors
-/// What is wrong with the condition; places are bytes of it.
+///
+/// The problems of the condition; positions are bytes of it.
 pub fn with_condition(
     program: &str,
     condition: &str,
@@ -25,12 +26,12 @@ pub fn with_condition(
     Ok(bytecode)
 }
 
-/// Compiles a program, which has no errors and no properties, with a value of each robot: an expression that may ask
-/// what a property may, and whose value has the type. The function with this number takes a robot and gives the value;
-/// places of its instructions are bytes of the expression.
+/// Compiles a program, which has no errors and no properties, with a value of each robot: an expression that may read
+/// everything that a property may, and whose value has the type. The function with the returned number takes a robot
+/// and returns the value; positions of its instructions are bytes of the expression.
 ///
 /// # Errors
-/// The problems of the expression; places are bytes of it.
+/// The problems of the expression; positions are bytes of it.
 pub fn with_value(
     program: &str,
     expression: &str,
@@ -45,14 +46,14 @@ pub fn with_value(
         span.start = span.start.saturating_sub(start);
         span.end = span.end.saturating_sub(start);
     }
-    // An expression of another type than Bool is no property.
+    // An expression of another type than Bool is not a property.
     match bytecode.properties.pop().map(|value| value.claim) {
         Some(Claim::Eventually { holds, .. }) => Ok((bytecode, holds)),
         _ => Err(Vec::from([no_room(expression)])),
     }
 }
 
-/// All that stands before the part. In brackets it ends where it ends.
+/// Everything that stands before the part. In brackets it ends where it ends.
 fn before(program: &str) -> String {
     [program, "\n\neventually: ("].concat()
 }
@@ -98,11 +99,11 @@ fn moved(mut problem: Diagnostic, part: Span) -> Diagnostic {
     for label in &mut problem.labels {
         label.span = span(label.span);
     }
-    // A change of the program is no way to mend the condition.
-    problem.mend = problem
-        .mend
-        .filter(|mend| mend.edits.iter().all(|edit| inside(&edit.span)));
-    for edit in problem.mend.iter_mut().flat_map(|mend| &mut mend.edits) {
+    // A change of the program cannot fix the condition.
+    problem.fix = problem
+        .fix
+        .filter(|fix| fix.edits.iter().all(|edit| inside(&edit.span)));
+    for edit in problem.fix.iter_mut().flat_map(|fix| &mut fix.edits) {
         edit.span = span(edit.span);
     }
     problem

@@ -1,4 +1,4 @@
-//! The code of one function while it is written: instructions, labels and where they come from.
+//! The code of one function while it is written: instructions, labels and source positions.
 
 use alloc::vec::Vec;
 
@@ -57,7 +57,7 @@ impl Code {
         label
     }
 
-    /// Whether the next instruction can be come to, as far as the last one says.
+    /// Whether execution can continue from the last instruction to the next.
     pub fn is_reached(&self) -> bool {
         let next = self.instructions.len() as u32;
         self.labels.contains(&next) || !self.instructions.last().is_some_and(leaves)

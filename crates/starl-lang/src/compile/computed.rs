@@ -15,12 +15,12 @@ use crate::machine::{
     self, Bytecode, FunctionKind, Host, HostCall, Import, Limits, Machine, Workspace,
 };
 
-/// Constants need nobody: functions cannot call the host.
+/// A host for constants, which never call it.
 struct Nobody;
 
 impl Host for Nobody {
     fn call(&mut self, _: u32, _: &mut HostCall<'_>) -> Result<u64, Cow<'static, str>> {
-        Err("there is nobody to ask".into())
+        Err("a constant cannot call the host".into())
     }
 }
 

@@ -6,8 +6,7 @@ use super::unit::Unit;
 use crate::check::Builtin;
 use crate::ir::{self, Expression, ExpressionKind, Operator};
 
-/// The value of an expression whose value is known, if that is one scalar. What would be a run-time
-/// error is left to the run.
+/// The value of an expression if it is a known scalar. Expressions that would fail are left to run time.
 pub(super) fn folded(unit: &Unit<'_>, expression: &Expression) -> Option<u64> {
     match &expression.kind {
         ExpressionKind::Bool(value) => Some(u64::from(*value)),
@@ -68,7 +67,7 @@ pub(super) fn folded(unit: &Unit<'_>, expression: &Expression) -> Option<u64> {
     }
 }
 
-/// The bits of a Float. There are many that are no number, so those are left to the machine.
+/// The bits of a Float. NaN has many representations, so it is left to the machine.
 fn float(value: f64) -> Option<u64> {
     (!value.is_nan()).then(|| value.to_bits())
 }

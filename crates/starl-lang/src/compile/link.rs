@@ -58,7 +58,7 @@ pub(super) fn link(program: &Program, files: &[CheckedFile]) -> Result<Bytecode,
 }
 
 impl Unit<'_> {
-    /// Compiles what is asked for, and what that asks for.
+    /// Compiles the requested routines, and those that they need.
     pub fn compile_routines(&mut self) {
         while let Some((routine, number)) = self.next_routine() {
             let function = self.compile_routine(routine);

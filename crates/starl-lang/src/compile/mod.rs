@@ -4,7 +4,7 @@
 //! are a stack (`body`); a value is computed where it is wanted (`expression`); a condition becomes
 //! jumps (`condition`); what functions share is numbered when it is first needed (`unit`).
 //!
-//! Invariant: what is given can be loaded. What the machine or the robots cannot do is told as
+//! Invariant: the result can be loaded. Features that the machine or the robots do not support are reported as
 //! diagnostics.
 
 mod body;
@@ -31,8 +31,7 @@ use crate::check::Checked;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::machine::Bytecode;
 
-/// What keeps a program, or a library, that the checker finds correct from being run; nothing if the checker has found
-/// errors.
+/// The problems that keep a checked program or library from running; empty if the checker has found errors.
 #[must_use]
 pub fn problems(checked: &Checked) -> Vec<Diagnostic> {
     match checked.has_errors() {
@@ -41,11 +40,10 @@ pub fn problems(checked: &Checked) -> Vec<Diagnostic> {
     }
 }
 
-/// Compiles a program that was checked. Of a library all functions are compiled, of a program those
-/// that it uses.
+/// Compiles a program that was checked. Compiles all functions of a library, but only the used functions of a program.
 ///
 /// # Errors
-/// What the machine or the robots cannot do; the checker's errors, if there are any.
+/// Features that the machine or the robots do not support; the checker's errors, if there are any.
 pub fn compile(checked: &Checked) -> Result<Bytecode, Vec<Diagnostic>> {
     if checked.has_errors() {
         let all = checked.files.iter().flat_map(|file| &file.diagnostics);

@@ -1,4 +1,4 @@
-//! What keeps a checked program from being compiled.
+//! Problems that keep a checked program from being compiled.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -6,7 +6,7 @@ use alloc::string::String;
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 
-/// What a step of the compiler gives.
+/// The result of a step of the compiler.
 pub(super) type Compiled<T = ()> = Result<T, Box<Problem>>;
 
 /// A problem and the file that it is in.
@@ -14,7 +14,7 @@ pub(super) type Compiled<T = ()> = Result<T, Box<Problem>>;
 pub(super) struct Problem {
     /// The number of the file.
     pub file: u32,
-    /// What is to be said of it.
+    /// The diagnostic.
     pub diagnostic: Diagnostic,
 }
 
@@ -33,8 +33,8 @@ impl Problem {
         self
     }
 
-    /// What is said of the program: a problem of a library is told at the program's first line, for
-    /// a diagnostic is about the program's own text.
+    /// The diagnostic for the program. A diagnostic refers to the program's own text, so a problem of a library is
+    /// reported at the program's first line.
     pub fn told(self, files: &[crate::check::CheckedFile]) -> Diagnostic {
         let library = files.get(self.file as usize).filter(|_| self.file != 0);
         let Some(library) = library else {

@@ -28,7 +28,7 @@ impl Size {
         }
     }
 
-    /// Whether a value may take so many.
+    /// Whether a value may have this size.
     pub const fn fits(self) -> bool {
         self.scalars <= WIDEST.scalars && self.objects <= WIDEST.objects
     }

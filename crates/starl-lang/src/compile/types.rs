@@ -12,10 +12,10 @@ use super::size::Size;
 use crate::ir::{self, EnumId, Program, RecordId};
 use crate::machine::{Enum, ObjectType, Type};
 
-/// A part of a value: what it is compared as.
+/// A part of a value, by the kind of its comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// A scalar that is no Float, at this place among the value's scalars.
+    /// A scalar other than a Float, at this position among the value's scalars.
     Scalar(u32),
     /// A Float.
     Float(u32),

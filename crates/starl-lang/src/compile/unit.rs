@@ -1,7 +1,6 @@
-//! What the functions of a compiled program share: its tables, and which functions there are.
+//! The shared parts of a compiled program: its tables and its list of functions.
 //!
-//! Functions are numbered when they are first asked for and compiled when their turn comes, so that
-//! what is never called is left out.
+//! A function gets its number at its first use and is compiled later, so that unused functions are left out.
 
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, VecDeque};
@@ -23,13 +22,13 @@ use crate::machine::{FunctionKind, Import, Type};
 pub(super) enum Routine {
     /// One of the program.
     Function(FunctionId),
-    /// What makes the value of a constant.
+    /// Computes the value of a constant.
     Constant(ConstantId),
     /// The program's `init`.
     Init,
-    /// What is done on entering whatever role the robot has now.
+    /// Runs on entering the robot's current role.
     Enter,
-    /// What is done on entering the role with this number.
+    /// Runs on entering the role with this number.
     EnterRole(u16),
 }
 
@@ -155,7 +154,7 @@ impl<'p> Unit<'p> {
         number
     }
 
-    /// The next routine that is to be compiled, and its number.
+    /// The next routine to compile, and its number.
     pub fn next_routine(&mut self) -> Option<(Routine, u32)> {
         self.queue.pop_front()
     }
@@ -166,7 +165,7 @@ impl<'p> Unit<'p> {
         (self.functions.len() - 1) as u32
     }
 
-    /// Puts a function at its number, or notes why there is none.
+    /// Stores a function under its number, or the reason why there is none.
     pub fn define(&mut self, number: u32, function: Compiled<Finished>) {
         match function {
             Ok(function) => self.functions[number as usize] = Some(function),

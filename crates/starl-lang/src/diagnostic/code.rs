@@ -1,7 +1,7 @@
-//! Every kind of problem that a person may be told of, with the number by which it can be looked up.
+//! All kinds of problems, with the numbers of their pages.
 //!
-//! Numbers are never reused. `01xx` is what is wrong with the text itself, `02xx` belong to the
-//! checker, `03xx` to the compiler. `E` is an error: the program does not run. `W` is a warning: it runs.
+//! Numbers are never reused. `01xx` are syntax errors, `02xx` belong to the checker, `03xx` to the compiler. `E` is an
+//! error: the program does not run. `W` is a warning: it runs.
 
 use core::fmt;
 
@@ -9,14 +9,14 @@ use super::Severity;
 
 macro_rules! codes {
     ($($(#[doc = $doc:literal])+ $name:ident = $number:literal,)+) => {
-        /// What kind of problem a diagnostic reports.
+        /// The kind of problem that a diagnostic reports.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Code {
             $($(#[doc = $doc])+ $name,)+
         }
 
         impl Code {
-            /// All codes, by rising number, errors first.
+            /// All codes by ascending number, errors first.
             pub const ALL: &[Self] = &[$(Self::$name,)+];
 
             /// The number under which a person finds the page that explains it, such as `E0101`.
@@ -27,8 +27,7 @@ macro_rules! codes {
                 }
             }
 
-            /// The page that explains it, in Markdown: when it comes and why, and an example with its
-            /// mend.
+            /// The page that explains it, in Markdown: the cause, and an example with its fix.
             #[must_use]
             pub const fn page(self) -> &'static str {
                 match self {
@@ -36,7 +35,7 @@ macro_rules! codes {
                 }
             }
 
-            /// What the code means, in a sentence.
+            /// The meaning of the code, in a sentence.
             #[must_use]
             pub fn title(self) -> &'static str {
                 match self {
@@ -110,7 +109,7 @@ codes! {
     DuplicateName = "E0202",
     /// A local name that hides another.
     HiddenName = "E0203",
-    /// A name that stands for no value.
+    /// A name without a value.
     NoValue = "E0204",
     /// A type that there is not.
     UnknownType = "E0205",
@@ -130,7 +129,7 @@ codes! {
     BrokenLibrary = "E0212",
     /// A declaration that a library cannot hold.
     NotInLibrary = "E0213",
-    /// A constant whose value needs itself.
+    /// A constant whose value depends on itself.
     ConstantCycle = "E0214",
     /// A field or method that there is not.
     UnknownMember = "E0215",
@@ -180,7 +179,7 @@ codes! {
     UnknownPrimitive = "E0245",
     /// A handler of something that is neither a message nor an event.
     UnknownEvent = "E0246",
-    /// A handler with other parameters than what it handles.
+    /// A handler whose parameters differ from those of its event.
     HandlerParameters = "E0247",
     /// A quantifier over all robots outside of a property.
     MisplacedQuantifier = "E0248",
@@ -190,7 +189,7 @@ codes! {
     InvalidProperty = "E0250",
     /// A consistency that shared variables do not have.
     UnknownConsistency = "E0251",
-    /// A second declaration of what there can be only one of.
+    /// A second declaration of something unique.
     SecondDeclaration = "E0252",
     /// A record or an enum with too many parts.
     TooLarge = "E0253",
@@ -198,7 +197,7 @@ codes! {
     OutsideAtomic = "E0254",
     /// An `atomic` where nothing can wait.
     MisplacedAtomic = "E0255",
-    /// A parameter's range that is none.
+    /// An invalid range of a parameter.
     InvalidRange = "E0256",
     /// A field of an input with a type that orders do not carry.
     InputField = "E0257",
@@ -240,7 +239,7 @@ codes! {
     Unreachable = "W0210",
     /// A condition that is always the same.
     ConstantCondition = "W0211",
-    /// An `atomic` that does not keep others out of what it touches.
+    /// An `atomic` that does not protect the variables it uses.
     NothingShared = "W0212",
     /// A text whose `{}` do not match the values after it.
     FormatValues = "W0213",

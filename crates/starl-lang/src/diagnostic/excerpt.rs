@@ -8,7 +8,7 @@ use codespan_reporting::files::{Error, Files, SimpleFile};
 
 /// Longer lines are cut, bytes.
 const LONGEST: usize = 240;
-/// So much of a cut line is left before the place, bytes.
+/// The bytes of a cut line that are left before the place.
 const BEFORE: usize = 60;
 /// Stands for what is left out.
 const CUT: &str = "\u{2026}";
@@ -16,7 +16,8 @@ const CUT: &str = "\u{2026}";
 /// A source whose long lines are cut.
 pub(super) struct Excerpt<'a> {
     file: SimpleFile<&'a str, String>,
-    /// The lines that were cut. For each: its range in the source, the part that was kept, and where that part begins here.
+    /// The lines that were cut. For each: its range in the source, the part that was kept, and where that part begins
+    /// here.
     cuts: Vec<(Range<usize>, Range<usize>, usize)>,
     /// Where the diagnostic's place is here, and its column in the source.
     place: Option<(usize, usize)>,

@@ -9,7 +9,7 @@ use super::{Diagnostic, LineIndex, Severity, Span};
 
 /// The diagnostics of one file as a JSON array, an object each: `code`, `severity` (`error` or
 /// `warning`), `message`, `file`, `start` and `end`; `expected`, `found` and `note_at_span`, or null;
-/// `notes`; `labels`, each with `start`, `end` and `message`; and `mend`, with `message` and `edits`,
+/// `notes`; `labels`, each with `start`, `end` and `message`; and `fix`, with `message` and `edits`,
 /// each with `start`, `end` and `text`, or null. A place has `offset` (bytes from 0), `line` and
 /// `column` (characters), both from 1.
 #[must_use]
@@ -58,9 +58,9 @@ pub fn reports<'a>(
             labels: (diagnostic.labels.iter())
                 .map(|label| marked(label.span, Words::Message(&label.message)))
                 .collect(),
-            mend: diagnostic.mend.as_ref().map(|mend| Change {
-                message: &mend.message,
-                edits: (mend.edits.iter())
+            fix: diagnostic.fix.as_ref().map(|fix| Change {
+                message: &fix.message,
+                edits: (fix.edits.iter())
                     .map(|edit| marked(edit.span, Words::Text(&edit.text)))
                     .collect(),
             }),
@@ -81,7 +81,7 @@ struct Problem<'a> {
     note_at_span: Option<&'a str>,
     notes: &'a [String],
     labels: Vec<Marked<'a>>,
-    mend: Option<Change<'a>>,
+    fix: Option<Change<'a>>,
 }
 
 #[derive(Serialize)]

@@ -1,12 +1,12 @@
-//! What a person is told about a program: a code, a place, a message and perhaps a mend.
+//! Diagnostics of a program: a code, a position, a message and often a fix.
 //!
 //! A [`Diagnostic`] is data. [`render`] shows it with the source around it, [`json`] hands it to
-//! programs, and [`Mend::apply`] does what it suggests.
+//! programs, and [`Fix::apply`] does what it suggests.
 
 mod code;
 mod excerpt;
+mod fix;
 mod json;
-mod mend;
 mod position;
 mod render;
 mod similar;
@@ -16,8 +16,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 pub use code::Code;
+pub use fix::{Edit, Fix};
 pub use json::{json, reports};
-pub use mend::{Edit, Mend};
 pub use position::{LineIndex, Position};
 pub use render::{Colour, render};
 pub use similar::closest;
@@ -85,31 +85,31 @@ impl From<rowan::TextRange> for Span {
 pub struct Label {
     /// The place.
     pub span: Span,
-    /// What is to be seen there.
+    /// The message at that position.
     pub message: String,
 }
 
 /// One problem of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// What kind of problem it is.
+    /// The kind of problem.
     pub code: Code,
     /// Where it is.
     pub span: Span,
-    /// What is wrong, in a sentence without a full stop.
+    /// The problem, in a sentence without a full stop.
     pub message: String,
-    /// What should stand there, where that can be said.
+    /// The expected type or text, if known.
     pub expected: Option<String>,
-    /// What stands there instead.
+    /// The actual type or text.
     pub found: Option<String>,
-    /// What is said at the place itself; the message is enough if there is nothing.
+    /// A note at the position itself, if the message needs one.
     pub note_at_span: Option<String>,
     /// Other places that matter.
     pub labels: Vec<Label>,
     /// More that is worth knowing.
     pub notes: Vec<String>,
-    /// What would put it right.
-    pub mend: Option<Mend>,
+    /// The suggested fix.
+    pub fix: Option<Fix>,
 }
 
 impl Diagnostic {
@@ -125,7 +125,7 @@ impl Diagnostic {
             note_at_span: None,
             labels: Vec::new(),
             notes: Vec::new(),
-            mend: None,
+            fix: None,
         }
     }
 
@@ -135,8 +135,7 @@ impl Diagnostic {
         self.code.severity()
     }
 
-    /// All that is said besides the message, a line each: what is said at the place, what should stand there and what
-    /// does, and more that is worth knowing.
+    /// The lines below the message: the note at the position, the expected and the actual form, and further notes.
     pub fn remarks(&self) -> impl Iterator<Item = String> {
         let should = self.expected.iter().map(|what| format!("expected: {what}"));
         let stands = self.found.iter().map(|what| format!("found: {what}"));
@@ -185,17 +184,17 @@ impl Diagnostic {
         self
     }
 
-    /// The same, with what would put it right.
+    /// The same, with fixes.
     #[must_use]
-    pub fn mend(mut self, mend: Mend) -> Self {
-        self.mend = Some(mend);
+    pub fn fix(mut self, fix: Fix) -> Self {
+        self.fix = Some(fix);
         self
     }
 
-    /// The same, mended by one replacement at `span`.
+    /// The same, fixed by one replacement at `span`.
     #[must_use]
     pub fn replace(self, message: impl Into<String>, span: Span, text: impl Into<String>) -> Self {
-        self.mend(Mend {
+        self.fix(Fix {
             message: message.into(),
             edits: Vec::from([Edit::new(span, text)]),
         })

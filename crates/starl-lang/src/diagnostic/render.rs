@@ -11,7 +11,7 @@ use codespan_reporting::term::{self, Config, termcolor};
 use super::excerpt::{self, Excerpt};
 use super::{Diagnostic, Severity, Span};
 
-/// Whether a terminal is told to colour the text.
+/// Whether the text is coloured for a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
     /// Plain text.
@@ -20,11 +20,11 @@ pub enum Colour {
     On,
 }
 
-/// No more diagnostics of a file are written: nobody reads them, and mending one often mends others.
+/// The most diagnostics shown of a file. Users read only the first ones, and a fix often removes several.
 const MOST: usize = 100;
 
 /// The diagnostics of one file in the order given, each as a few lines with an empty one after it. Lines that are too
-/// long for a screen are cut. `name` is what the file is called there.
+/// long for a screen are cut. `name` is the name of the file in the text.
 #[must_use]
 pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colour) -> String {
     let visible = visible(source);
@@ -47,7 +47,7 @@ pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colo
         text.push_str(&part.unwrap_or_else(|| format!("{}: {}\n", shown.message, name)));
     }
     if let more @ 1.. = diagnostics.len().saturating_sub(MOST) {
-        text.push_str(&format!("{more} more of {name} are left out\n\n"));
+        text.push_str(&format!("{more} more problems of {name} are not shown\n\n"));
     }
     text
 }
@@ -72,8 +72,8 @@ fn written<'a>(
     }
 }
 
-/// The source with a sign in the place of each character that would not be seen, or that would change
-/// what a terminal does, of the same length in bytes.
+/// The source with a sign in place of each character that would not be seen, or that would change what a terminal does,
+/// of the same length in bytes.
 fn visible(source: &str) -> String {
     let sign = |character: char| match character {
         '\n' | '\r' | '\t' => character,
@@ -123,9 +123,9 @@ fn notes(diagnostic: &Diagnostic) -> Vec<String> {
     notes.extend(diagnostic.notes.iter().cloned());
     notes.extend(
         diagnostic
-            .mend
+            .fix
             .iter()
-            .map(|mend| format!("mend: {}", mend.message)),
+            .map(|fix| format!("fix: {}", fix.message)),
     );
     notes
 }
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flood_of_errors_is_cut_to_what_can_be_read() {
+    fn a_flood_of_errors_is_cut() {
         let source = "{".repeat(3000);
         let error = |at: u32| {
             let span = Span {
@@ -189,6 +189,6 @@ mod tests {
         let errors: Vec<Diagnostic> = (0..3000).map(error).collect();
         let text = render("deep.starl", &source, &errors, Colour::Off);
         assert!(text.len() < 100_000, "{}", text.len());
-        assert!(text.ends_with("2900 more of deep.starl are left out\n\n"));
+        assert!(text.ends_with("2900 more problems of deep.starl are not shown\n\n"));
     }
 }

@@ -2,8 +2,8 @@
 
 use alloc::vec::Vec;
 
-/// The candidate most like `word`, if one is like enough to be what was meant: at most a third of its
-/// characters differ, counting a swap of neighbours once. The first of equally good ones.
+/// The candidate most similar to `word`, if one is similar enough to be intended: at most a third of its characters
+/// differ, counting a swap of neighbours once. The first of equally good ones.
 ///
 /// The distance is the restricted Damerau-Levenshtein distance (Damerau, 1964), with a change between
 /// upper and lower case free.

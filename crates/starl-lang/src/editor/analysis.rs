@@ -13,10 +13,10 @@ use crate::ir::Site;
 /// The number of the prelude's file.
 pub(super) const PRELUDE_FILE: u32 = 1;
 
-/// A program or a library, checked together with what it imports. Its own file has the number 0.
+/// A program or a library, checked together with its imports. Its own file has the number 0.
 #[derive(Clone, Debug)]
 pub struct Analysis {
-    /// What the checker found.
+    /// The result of the checker.
     pub checked: Checked,
     pub(super) index: Index,
     diagnostics: Vec<Diagnostic>,
@@ -44,13 +44,13 @@ impl Analysis {
         &self.checked.files[0].source
     }
 
-    /// What is wrong with the text, that which keeps it from being run included, by rising place.
+    /// All problems of the text, those of the compiler included, sorted by position.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
 
-    /// Every name of the text by rising place.
+    /// Every name of the text, sorted by position.
     #[must_use]
     pub fn occurrences(&self) -> &[Occurrence] {
         self.index.of_file(0)
@@ -68,13 +68,13 @@ impl Analysis {
         self.index.at(file, offset)
     }
 
-    /// What a name stands for, how it is declared and what is said of it.
+    /// The meaning, declaration and documentation of a symbol.
     #[must_use]
     pub fn describe(&self, symbol: Symbol) -> Description {
         describe(&self.checked, symbol)
     }
 
-    /// What to show at a place of the text: the name's place, and what it stands for.
+    /// The text to show at a position: the span of the name, and its description.
     #[must_use]
     pub fn hover(&self, offset: u32) -> Option<(Span, Description)> {
         if let Some(found) = self.occurrence(offset) {
@@ -83,7 +83,7 @@ impl Analysis {
         super::words::at(&self.checked.files[0].parse, offset)
     }
 
-    /// Where something is declared; none for what is built in.
+    /// The declaration of a symbol; none for a built-in one.
     #[must_use]
     pub fn definition(&self, symbol: Symbol) -> Option<Site> {
         let program = &self.checked.program;
@@ -125,7 +125,7 @@ impl Analysis {
         found.map_or(start, |(_, site)| site)
     }
 
-    /// Where something is named, in all files, by rising place.
+    /// The uses of a symbol in all files, sorted by position.
     #[must_use]
     pub fn references(&self, symbol: Symbol) -> Vec<Occurrence> {
         let names = self.index.all().iter();

@@ -1,11 +1,11 @@
-//! What is said of that which every program has.
+//! Descriptions of built-in names.
 
 use alloc::format;
 
 use super::Description;
 use crate::check::{PRIMITIVES, Symbol};
 
-/// Built-in types with what is said of them.
+/// Built-in types with their documentation.
 pub(super) const TYPES: &[(&str, &str, &str)] = &[
     ("Bool", "Bool", "`true` or `false`."),
     (
@@ -22,61 +22,57 @@ pub(super) const TYPES: &[(&str, &str, &str)] = &[
     (
         "Point",
         "Point",
-        "A place or a direction: `x`, `y` and `z`, metres.",
+        "A position or a vector: `x`, `y` and `z`, metres.",
     ),
     ("Time", "Time", "A time on this robot's clock."),
     (
         "Duration",
         "Duration",
-        "How long something takes, such as `500ms`; never negative.",
+        "A time span, such as `500ms`; never negative.",
     ),
     ("RobotId", "RobotId", "A robot of the fleet."),
     ("Area", "Area", "A part of the floor plane."),
-    ("Obstacles", "Obstacles", "What is to be kept clear of."),
-    ("List", "List[T]", "Elements in a row, counted from 0."),
-    (
-        "Set",
-        "Set[T]",
-        "Elements that are there once each, in rising order.",
-    ),
+    ("Obstacles", "Obstacles", "A set of obstacles."),
+    ("List", "List[T]", "Elements in order, by index from 0."),
+    ("Set", "Set[T]", "Distinct elements, in ascending order."),
     (
         "Map",
         "Map[K, V]",
-        "A value for each key, in the rising order of the keys.",
+        "A value for each key, in ascending order of the keys.",
     ),
 ];
 
-/// What properties may say of every robot.
+/// The attributes that properties may read of every robot.
 pub(super) const ROBOT_MEMBERS: &[(&str, &str, &str)] = &[
     (
         "position",
         "position: Point",
-        "Where the robot is, metres: the true position where the host knows it.",
+        "The position of the robot, metres: the true one if the host knows it.",
     ),
     (
         "heading",
         "heading: Float",
-        "Where the robot looks, radians from the x axis.",
+        "The heading of the robot, radians from the x axis.",
     ),
     (
         "velocity",
         "velocity: Point",
-        "How the robot moves, metres per second.",
+        "The velocity of the robot, metres per second.",
     ),
     (
         "finished",
         "finished: Bool",
-        "Whether the robot's program has said that it reached its goal.",
+        "Whether the robot's program has declared that it reached its goal.",
     ),
     (
         "up",
         "up: Bool",
-        "Whether the robot runs, rather than having crashed.",
+        "Whether the robot is running and has not crashed.",
     ),
     ("id", "id: RobotId", "The robot's number."),
 ];
 
-/// What every program has.
+/// The description of a built-in name.
 pub(super) fn built_in(symbol: Symbol) -> Description {
     let of_table = |table: &[(&str, &str, &str)], name: &str| {
         let found = table.iter().find(|(own, ..)| *own == name);

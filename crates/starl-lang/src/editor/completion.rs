@@ -1,7 +1,7 @@
-//! What a name that is being typed may be.
+//! Completions of a name that is being typed.
 //!
-//! A word that nothing has, the probe, takes the place of the name, and the checker says what stands
-//! around it ([`crate::check::surroundings`]); where it does not come there, the tree does.
+//! The probe, a name that no declaration has, takes the place of the name, and the checker reports its context
+//! ([`crate::check::surroundings`]). If the checker does not reach the probe, the syntax tree gives the context.
 
 mod candidates;
 mod context;
@@ -40,19 +40,19 @@ pub enum Call {
 pub struct Completion {
     /// The word.
     pub label: String,
-    /// What it stands for; none for a word of the language.
+    /// Its meaning; none for a keyword.
     pub symbol: Option<Symbol>,
     /// How it is declared.
     pub detail: String,
-    /// What is said of it, in Markdown.
+    /// Its documentation, in Markdown.
     pub documentation: String,
     /// How it is called.
     pub call: Call,
-    /// What comes first is likelier.
+    /// Lower ranks are likelier and come first.
     pub rank: u8,
 }
 
-/// What to put in the place of the word that is being typed.
+/// The text that replaces the word that is being typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Insertion {
     /// The text.
@@ -62,7 +62,7 @@ pub struct Insertion {
 }
 
 impl Completion {
-    /// What to insert; without brackets if they stand there already.
+    /// The text to insert; without brackets if the text has them already.
     #[must_use]
     pub fn insertion(&self, has_brackets: bool) -> Insertion {
         let label = &self.label;
@@ -77,18 +77,18 @@ impl Completion {
     }
 }
 
-/// What may be typed at a place.
+/// The completions at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completions {
     /// The word that is replaced, perhaps empty.
     pub span: Span,
-    /// By rising rank, and then by label.
+    /// Sorted by rank, then by label.
     pub items: Vec<Completion>,
     /// Whether brackets stand behind the word already.
     pub has_brackets: bool,
 }
 
-/// What may be typed at a place of a text.
+/// The completions at a position of a text.
 #[must_use]
 pub fn completions(text: &str, offset: u32, libraries: &dyn Libraries) -> Completions {
     let span = word_at(text, offset);
@@ -116,7 +116,7 @@ fn word_at(text: &str, offset: u32) -> Span {
     Span::new((at - before.count()) as u32, (at + after.count()) as u32)
 }
 
-/// What stands around the word; none where no name is typed: in comments, texts and numbers.
+/// The context of the word; none in comments, texts and numbers.
 fn context_at(
     text: &str,
     span: Span,
@@ -176,7 +176,7 @@ fn begins_line(token: &SyntaxToken) -> bool {
     true
 }
 
-/// What the checker said, or nothing more than that a value stands there.
+/// The context if the checker did not reach the probe: some value.
 fn anything() -> Surroundings {
     Surroundings::Value(crate::check::Reach {
         locals: Vec::new(),

@@ -1,4 +1,4 @@
-//! What a name stands for, in the words of its declaration.
+//! Descriptions of names, in the words of their declarations.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -14,12 +14,12 @@ use crate::syntax::{SyntaxKind, SyntaxNode};
 /// Up to which length a value is part of what is shown of a declaration.
 const LONGEST_VALUE: usize = 60;
 
-/// What a name stands for.
+/// The description of a name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Description {
     /// How it is declared, in the language: `function f(a: Int) -> Int`.
     pub signature: String,
-    /// What is said of it, in Markdown; empty if nothing is.
+    /// Its documentation, in Markdown; may be empty.
     pub documentation: String,
     /// Of a local what kind it is.
     pub of_locals: Option<&'static str>,
@@ -215,12 +215,12 @@ fn local(checked: &Checked, site: Site) -> Description {
     }
 }
 
-/// What kind of local is declared by the name.
+/// The kind of local that the name declares.
 pub(super) fn local_kind(name: &SyntaxNode) -> &'static str {
     match name.parent().map(|parent| parent.kind()) {
         Some(SyntaxKind::Parameter) => "a parameter",
-        Some(SyntaxKind::LoopVariables) => "what a loop is at",
-        Some(SyntaxKind::HandlerParameterList) => "what the handler was given",
+        Some(SyntaxKind::LoopVariables) => "a loop variable",
+        Some(SyntaxKind::HandlerParameterList) => "a parameter of the handler",
         Some(SyntaxKind::QuantifierExpression) => "a robot",
         Some(SyntaxKind::SomeExpression) => "the value of an optional",
         _ => "a local variable",

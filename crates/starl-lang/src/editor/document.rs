@@ -1,10 +1,10 @@
-//! Texts as editors have them: how they are named, what they are, how they change.
+//! Texts in editors: their names, kinds and changes.
 
 use alloc::string::String;
 
 use super::{Utf16Lines, Utf16Position};
 
-/// What the names of texts begin with that are no files but part of the language: `starl-library:/prelude.starl`.
+/// The prefix of built-in libraries, which are not files: `starl-library:/prelude.starl`.
 pub const BUILT_IN: &str = "starl-library:/";
 
 /// Whether the text says that it is a library, without reading all of it.

@@ -1,4 +1,4 @@
-//! Every name of the files, in order, with what it stands for.
+//! Every name of the files, in order, with its meaning.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -15,13 +15,13 @@ use crate::ir::{
 pub struct Occurrence {
     /// Where it is.
     pub site: Site,
-    /// What it stands for.
+    /// Its meaning.
     pub symbol: Symbol,
     /// Whether it is where that is declared.
     pub is_definition: bool,
 }
 
-/// The names of all files by rising place, each once.
+/// The names of all files, sorted by position, each once.
 #[derive(Clone, Debug)]
 pub(super) struct Index {
     occurrences: Vec<Occurrence>,
@@ -72,7 +72,7 @@ impl Index {
         (offset <= found.site.span.end).then_some(*found)
     }
 
-    /// What the name at exactly this place stands for.
+    /// The meaning of the name at exactly this position.
     pub fn exactly(&self, site: Site) -> Option<Occurrence> {
         let at = (self.occurrences)
             .binary_search_by_key(&site, |one| one.site)
@@ -81,7 +81,7 @@ impl Index {
     }
 }
 
-/// All that has a name where it is declared.
+/// Everything that has a name where it is declared.
 fn definitions(checked: &Checked, define: &mut dyn FnMut(Site, Symbol)) {
     let program = &checked.program;
     for (number, name) in headers(checked) {

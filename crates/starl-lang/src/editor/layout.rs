@@ -1,15 +1,14 @@
-//! Laying a text out anew by the smallest changes, so that an editor's marks and cursors stay where they
-//! are.
+//! Formats a text by the smallest changes, so that an editor's marks and cursors stay in place.
 //!
-//! Only white space changes ([`crate::format`]), so that both texts are the same letters with other white
-//! space between; each white space that differs is one change.
+//! Only white space changes ([`crate::format`]): both texts have the same other characters, and each white space that
+//! differs is one change.
 
 use alloc::vec::Vec;
 
 use crate::diagnostic::{Edit, Span};
 use crate::format::format;
 
-/// The changes that lay the text out, by rising place; none if it is laid out already.
+/// The changes that format the text, sorted by position; none if it is already formatted.
 #[must_use]
 pub fn layout(text: &str) -> Vec<Edit> {
     let formatted = format(text);

@@ -1,11 +1,10 @@
-//! What an editor asks of the language, as functions without input or output.
+//! Language support for editors, as functions without input or output.
 //!
-//! An [`Analysis`] is one text, checked together with what it imports: its problems, what each name
-//! stands for, and from these what to show at a place ([`Analysis::hover`], [`Analysis::call_help`]), where something is declared
-//! and used ([`Analysis::definition`], [`Analysis::references`]), how to rename it
-//! ([`Analysis::rename`]), the [`outline`] and the [`tokens`] to colour. [`completions`] says what a name
-//! that is being typed may be; [`layout`] lays the text out anew by the smallest changes. All of them work
-//! on texts with errors, as texts are while one types.
+//! An [`Analysis`] is one text, checked together with what it imports: its problems, the meanings of its names,
+//! descriptions at a position ([`Analysis::hover`], [`Analysis::call_help`]), declarations and uses
+//! ([`Analysis::definition`], [`Analysis::references`]), renaming ([`Analysis::rename`]), the [`outline`] and the
+//! [`tokens`] to colour. [`completions`] completes a name that is being typed; [`layout`] formats the text by the
+//! smallest changes. All of them work on texts with errors, because a text has errors while it is being typed.
 //!
 //! Places are bytes of the text, as everywhere in the language; [`Utf16Lines`] makes them the lines and
 //! columns of the Language Server Protocol and back. Names are those that the checker resolved

@@ -1,4 +1,4 @@
-//! What a text is made of, as a tree.
+//! The outline of a text, as a tree.
 
 use alloc::format;
 use alloc::string::String;
@@ -9,7 +9,7 @@ use crate::diagnostic::Span;
 use crate::syntax::Parse;
 use crate::syntax::ast::{self, AstNode, Item, Named};
 
-/// What a part of the text is.
+/// The kind of a part of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OutlineKind {
@@ -46,9 +46,9 @@ pub enum OutlineKind {
 /// A part of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutlineEntry {
-    /// What it is.
+    /// Its kind.
     pub kind: OutlineKind,
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// More that is worth seeing, such as its type; empty if there is nothing.
     pub detail: String,
@@ -60,7 +60,7 @@ pub struct OutlineEntry {
     pub parts: Vec<OutlineEntry>,
 }
 
-/// What a text is made of, in its order.
+/// The outline of a text, in its order.
 #[must_use]
 pub fn outline(parse: &Parse) -> Vec<OutlineEntry> {
     let source = String::from(parse.syntax().text());
@@ -146,7 +146,7 @@ impl Outline<'_> {
         }
     }
 
-    /// What has no name but begins with a word.
+    /// A part without a name, which begins with a keyword.
     fn unnamed(&self, kind: OutlineKind, word: String, span: Span) -> OutlineEntry {
         let end = (span.start + word.len() as u32).min(span.end);
         OutlineEntry {

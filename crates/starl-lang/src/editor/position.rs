@@ -59,8 +59,8 @@ impl Utf16Lines {
         Self { lines }
     }
 
-    /// The place of the byte at `offset` of `text`, which is what the lines were made of. What is in a
-    /// line's ending counts as its end, what is in a character as its start.
+    /// The position of the byte at `offset` of `text`, the text that the lines were made of. A byte within a line's
+    /// ending counts as the end of the line, a byte within a character as the character's start.
     #[must_use]
     pub fn position(&self, text: &str, offset: u32) -> Utf16Position {
         let after = self.lines.partition_point(|line| line.start <= offset);
@@ -86,8 +86,8 @@ impl Utf16Lines {
         }
     }
 
-    /// The byte of `text` at a place. What is beyond the end of a line is its end; what is beyond the last
-    /// line is the end of the text; what is in a character is its start.
+    /// The byte of `text` at a position. A position beyond the end of a line is the line's end, one beyond the last
+    /// line is the end of the text, and one within a character is the character's start.
     #[must_use]
     pub fn offset(&self, text: &str, position: Utf16Position) -> u32 {
         let Some(line) = self.lines.get(position.line as usize) else {

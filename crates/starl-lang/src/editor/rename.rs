@@ -1,9 +1,9 @@
 //! Renaming, checked: the program means the same afterwards, or it is not renamed.
 //!
-//! The names are changed in copies of the texts, and these are checked: every name must stand for what it
-//! stood for before, and there must be no new error. So whatever makes two names collide, one hide the
-//! other or a word mean something else is found by the rules of the language itself. What that cannot show
-//! are uses in parts that have errors; where the old name stands in one, nothing is renamed.
+//! The names are changed in copies of the texts, and the copies are checked: every name must keep its meaning, and
+//! there must be no new error. So the rules of the language itself find names that collide, hide each other or get
+//! another meaning. Uses in parts with errors cannot be checked this way; if the old name occurs in such a part,
+//! nothing is renamed.
 
 mod changes;
 
@@ -26,11 +26,11 @@ use starl_core::Order;
 pub struct FileEdits {
     /// The number of the file.
     pub file: u32,
-    /// By rising place.
+    /// Sorted by position.
     pub edits: Vec<Edit>,
 }
 
-/// What renaming changes.
+/// The changes of a renaming.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renamed {
     /// The changes by file.
@@ -44,7 +44,7 @@ impl Analysis {
     /// A sentence for the person who wants to rename it.
     pub fn renameable(&self, offset: u32) -> Result<Occurrence, String> {
         let Some(found) = self.occurrence(offset) else {
-            return Err("there is no name here that is known".into());
+            return Err("there is no known name here".into());
         };
         self.may_rename(found.symbol)?;
         Ok(found)
@@ -101,7 +101,7 @@ impl Analysis {
         valid(name)?;
         let names = self.references(symbol);
         let Some(first) = names.first() else {
-            return Err("there is no name here that is known".into());
+            return Err("there is no known name here".into());
         };
         let old = self.name_at(first.site);
         if old == name {
@@ -133,7 +133,7 @@ impl Analysis {
                 if self.index.exactly(Site { file, span }).is_none() {
                     let place = line(&self.checked, Site { file, span });
                     return Err(format!(
-                        "it cannot be told what `{old}` means in {place}; mend the errors first"
+                        "the meaning of `{old}` in {place} is unknown; fix the errors first"
                     ));
                 }
             }
@@ -151,14 +151,14 @@ fn valid(name: &str) -> Result<(), String> {
         && letters.all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
     if !is_word {
         return Err(format!(
-            "`{name}` is no name: a name is made of letters, digits and `_`, and begins with no digit"
+            "`{name}` is not a name: a name consists of letters, digits and `_`, and does not begin with a digit"
         ));
     }
     if name == "_" {
-        return Err("`_` stands for what is not wanted".into());
+        return Err("`_` stands for an unused value".into());
     }
     if SyntaxKind::keyword(name).is_some() {
-        return Err(format!("`{name}` is a word of the language"));
+        return Err(format!("`{name}` is a keyword"));
     }
     Ok(())
 }

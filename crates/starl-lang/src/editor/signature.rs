@@ -1,4 +1,4 @@
-//! What a call takes, while its arguments are being typed.
+//! The parameters of a call, shown while its arguments are being typed.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -9,12 +9,12 @@ use crate::ir::Site;
 use crate::syntax::ast::{Argument, AstNode, CallExpression, Expression};
 use crate::syntax::{SyntaxKind, SyntaxNode};
 
-/// What a call takes.
+/// The signature of a call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CallHelp {
-    /// How what is called is declared.
+    /// The declaration of the called function.
     pub signature: String,
-    /// What is said of it, in Markdown.
+    /// Its documentation, in Markdown.
     pub documentation: String,
     /// The parameters, as parts of the signature.
     pub parameters: Vec<Span>,
@@ -23,7 +23,7 @@ pub struct CallHelp {
 }
 
 impl Analysis {
-    /// What the innermost call takes in whose brackets a place of the text is.
+    /// The signature of the innermost call around a position of the text.
     #[must_use]
     pub fn call_help(&self, offset: u32) -> Option<CallHelp> {
         let root = self.checked.files[0].parse.syntax();

@@ -1,4 +1,4 @@
-//! What each word of a text is, for an editor that colours it.
+//! The kinds of words in a text, for syntax highlighting.
 
 use alloc::vec::Vec;
 
@@ -10,7 +10,7 @@ use crate::check::{Builtin, Symbol};
 use crate::diagnostic::Span;
 use crate::syntax::{SyntaxKind, SyntaxToken};
 
-/// What a word is.
+/// The kind of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TokenKind {
     /// A reserved word, or one that begins a declaration.
@@ -65,13 +65,13 @@ pub struct TokenModifiers {
 pub struct Token {
     /// Where it is.
     pub span: Span,
-    /// What it is.
+    /// Its kind.
     pub kind: TokenKind,
     /// More about it.
     pub modifiers: TokenModifiers,
 }
 
-/// The words of a text by rising place; those of which nothing is known are left out, and so are signs.
+/// The words of a text, sorted by position, without unknown words and without signs.
 #[must_use]
 pub fn tokens(analysis: &Analysis) -> Vec<Token> {
     let mut names = analysis.occurrences().iter().copied().peekable();
@@ -133,7 +133,7 @@ fn name_token(analysis: &Analysis, name: Occurrence) -> Token {
         Symbol::Local(site) => {
             let node = node_at(&analysis.checked, site);
             match node.as_ref().map(local_kind) {
-                Some("a parameter" | "what the handler was given") => TokenKind::Parameter,
+                Some("a parameter" | "a parameter of the handler") => TokenKind::Parameter,
                 _ => TokenKind::Variable,
             }
         }
@@ -156,7 +156,7 @@ fn name_token(analysis: &Analysis, name: Occurrence) -> Token {
     modifiers.default_library = analysis
         .definition(name.symbol)
         .is_none_or(|site| site.file == super::analysis::PRELUDE_FILE);
-    // The variable of the roles is declared by nobody.
+    // The variable of the roles has no declaration in the text.
     let roles = program.roles.as_ref().map(|roles| roles.variable);
     modifiers.default_library |= matches!(name.symbol, Symbol::Variable(id) if Some(id) == roles);
     Token {

@@ -1,4 +1,4 @@
-//! What reserved words and the words that begin declarations mean, for those who meet them.
+//! Descriptions of reserved words and of the words that begin declarations.
 
 use alloc::string::String;
 
@@ -26,7 +26,7 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "program",
         "program Name",
-        "The first line of a program: what every robot of a fleet runs.",
+        "The first line of a program, which every robot of a fleet runs.",
     ),
     word(
         "library",
@@ -36,7 +36,7 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "import",
         "import name",
-        "Brings in a library, of the same folder or of the standard library.",
+        "Imports a library from the same folder or from the standard library.",
     ),
     word(
         "enum",
@@ -46,12 +46,12 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "record",
         "record Name {x: Int, y: Point}",
-        "A type made of named parts.",
+        "A type with named fields.",
     ),
     word(
         "message",
         "message Name(x: Int)",
-        "What robots send each other.",
+        "A message between robots.",
     ),
     word(
         "param",
@@ -62,7 +62,7 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "allread",
         "allread name[RobotId]: Type",
-        "A shared variable of which each robot writes its own element and reads all.",
+        "A shared array: each robot writes its own element and reads all.",
     ),
     word(
         "allwrite",
@@ -72,18 +72,22 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "stable",
         "stable name: Type = value",
-        "A variable that outlasts a crash where the robot has storage.",
+        "A variable that survives a crash if the robot has storage.",
     ),
     word(
         "function",
         "function name(a: Type) -> Type",
-        "Something computed from arguments and constants alone.",
+        "A function of its arguments and of constants alone.",
     ),
-    word("init", "init", "What is done once, before any action."),
+    word(
+        "init",
+        "init",
+        "Statements that run once, before any action.",
+    ),
     word(
         "on",
         "on Message(from, field)",
-        "What is done when a message arrives, or when a primitive reports something.",
+        "Statements that run when a message arrives, or on an event of a primitive.",
     ),
     word(
         "role",
@@ -93,7 +97,7 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "check",
         "check condition",
-        "A condition that the variables always satisfy; where a fault has overwritten them and it is false, the program starts again.",
+        "An invariant of the variables; if a fault has overwritten them and it is false, the program restarts.",
     ),
     word(
         "invariant",
@@ -103,12 +107,12 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "always",
         "always name: condition leads_to condition within 5s",
-        "A condition that holds at all times, or that another one follows each time.",
+        "A condition that holds at all times, or that another condition follows each time.",
     ),
     word(
         "eventually",
         "eventually name: condition within 120s",
-        "A condition that comes true, at the latest after this time; with `eventually always` it stays true.",
+        "A condition that becomes true within this time; with `eventually always` it then stays true.",
     ),
 ];
 
@@ -116,8 +120,8 @@ pub(super) const DECLARATIONS: &[Word] = &[
 pub(super) const HANDLERS: &[Word] = &[word(
     "input",
     "on input name(field: Type)",
-    "What is done when an operator gives an order of this name with these fields; `on input way_points()`: \
-     when the way-points have changed.",
+    "Runs when an operator gives an order of this name with these fields; `on input way_points()`: \
+     runs when the waypoints have changed.",
 )];
 
 /// Words that begin a part of an action.
@@ -125,14 +129,14 @@ pub(super) const CLAUSES: &[Word] = &[
     word(
         "pre",
         "pre condition for 2s",
-        "When the action may fire; with `for`, when the condition has held for so long.",
+        "The guard of the action; with `for`, the condition must have held for this time.",
     ),
     word(
         "every",
         "every 500ms",
-        "The least time from one firing of the action to the next.",
+        "The shortest time from one firing of the action to the next.",
     ),
-    word("eff", "eff statements", "What the action does."),
+    word("eff", "eff statements", "The effect of the action."),
 ];
 
 /// Words that begin a statement.
@@ -174,28 +178,28 @@ pub(super) const EXPRESSIONS: &[Word] = &[
     word(
         "some",
         "some x = optional",
-        "Holds if there is a value, which then has the name.",
+        "True if there is a value, and names the value.",
     ),
-    word("not", "not condition", "The opposite."),
+    word("not", "not condition", "The negation."),
     word(
         "and",
         "a and b",
-        "Holds if both do; the second is looked at only if the first holds.",
+        "True if both are; the second is evaluated only if the first is true.",
     ),
     word(
         "or",
         "a or b",
-        "Holds if one does; the second is looked at only if the first does not.",
+        "True if one is; the second is evaluated only if the first is false.",
     ),
     word(
         "in",
         "x in collection",
-        "Whether something is an element, a key or a part.",
+        "Whether a value is an element, a key or a part.",
     ),
     word(
         "then",
         "if condition then a else b",
-        "What comes if the condition holds.",
+        "The value or statement for the case that the condition holds.",
     ),
     word(
         "forall",
@@ -214,12 +218,12 @@ pub(super) const QUANTIFIERS: &[Word] = &[
     word(
         "within",
         "within 120s",
-        "How long it may take, counted from the last fault too.",
+        "The deadline, counted from the last fault if that is later.",
     ),
     word(
         "recovers",
         "recovers within 20s",
-        "How long it may be false after a fault has overwritten variables.",
+        "The time for which it may be false after a fault has overwritten variables.",
     ),
     word(
         "assuming",
@@ -229,12 +233,12 @@ pub(super) const QUANTIFIERS: &[Word] = &[
     word(
         "despite",
         "despite crashes",
-        "Robots that are down count too.",
+        "Robots that are down are judged too.",
     ),
     word(
         "leads_to",
         "cause leads_to consequence",
-        "Each time that the cause holds, the consequence holds then or later.",
+        "Whenever the cause is true, the consequence is true then or later.",
     ),
 ];
 
@@ -248,7 +252,7 @@ impl Word {
     }
 }
 
-/// The word at a place that is no name.
+/// The word at a position, unless it is a name.
 pub(super) fn at(parse: &Parse, offset: u32) -> Option<(Span, Description)> {
     let root = parse.syntax();
     if offset > u32::from(root.text_range().end()) {

@@ -45,7 +45,7 @@ pub(super) fn write(machine: &StateMachine) -> String {
         );
     }
     if leads_to(Target::Unknown) {
-        line("unknown [label = \"cannot be told\", style = \"rounded,dotted\"]");
+        line("unknown [label = \"unknown\", style = \"rounded,dotted\"]");
     }
     for edge in &machine.edges {
         let to = match edge.to {

@@ -41,7 +41,7 @@ pub(super) fn initial(program: &Program, variable: VariableId, states: usize) ->
     numbers.filter(|number| *number < states).collect()
 }
 
-/// The values after a procedure, none if they cannot be told.
+/// The values after a procedure, none if they cannot be determined.
 fn after(
     program: &Program,
     variable: VariableId,
@@ -128,7 +128,7 @@ fn steps(program: &Program, variable: VariableId, state: usize, edges: &mut Vec<
     }
 }
 
-/// What one action or handler does in one state.
+/// The effect of an action or handler in one state.
 struct Step {
     state: usize,
     cause: Cause,

@@ -30,7 +30,7 @@ const RESERVED: &[&str] = &[
     "title",
 ];
 
-/// What the state that cannot be told is called there; no state of a program is called so.
+/// The identifier of the unknown state; no state of a program has it.
 const UNKNOWN: &str = "unknown_state_";
 
 pub(super) fn write(machine: &StateMachine) -> String {
@@ -51,7 +51,7 @@ pub(super) fn write(machine: &StateMachine) -> String {
         }
     }
     if machine.edges.iter().any(|edge| edge.to == Target::Unknown) {
-        line(&format!("state \"cannot be told\" as {UNKNOWN}"));
+        line(&format!("state \"unknown\" as {UNKNOWN}"));
     }
     for state in machine.states.iter().filter(|state| state.is_initial) {
         line(&format!("[*] --> {}", identifier(state)));

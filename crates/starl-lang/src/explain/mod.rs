@@ -1,10 +1,10 @@
 //! The state machine that a program is: the values of its control variable, an enum, as states, and
 //! its actions and handlers as edges between them.
 //!
-//! An edge says that an action may lead from a state to another: that its guard can hold in the one, and
-//! that a way through its effect ends in the other. What depends on more than the variable's value is
-//! taken to be possible either way, so that no step that a robot takes is missing; some that are drawn
-//! may never be taken. Only states that can be reached so have edges.
+//! An edge from one state to another means that an action's guard can hold in the first and that a path through its
+//! effect ends in the second. Any other condition than one on the control variable may be true or false. So no step
+//! that a robot takes is missing, but some edges may never be taken. Only states that are reachable in this graph have
+//! edges.
 
 mod choose;
 mod dot;
@@ -27,7 +27,7 @@ pub struct StateMachine {
     pub variable: String,
     /// The values of the variable, in the order in which the enum declares them.
     pub states: Vec<State>,
-    /// What leads from state to state, by start, then end, then in the order of the program.
+    /// The edges between states, by start, then end, then in the order of the program.
     pub edges: Vec<Edge>,
 }
 
@@ -38,7 +38,7 @@ pub struct State {
     pub name: String,
     /// Whether a robot may start in it.
     pub is_initial: bool,
-    /// Whether a robot may come into it.
+    /// Whether a robot may reach it.
     pub is_reached: bool,
     /// Whether something leads out of it: into another state, or to the end of the program.
     pub is_left: bool,
@@ -51,7 +51,7 @@ pub struct Edge {
     pub from: usize,
     /// Where it leads.
     pub to: Target,
-    /// What does it.
+    /// The action or handler.
     pub cause: Cause,
 }
 
@@ -60,24 +60,24 @@ pub struct Edge {
 pub enum Target {
     /// The state with this number.
     State(usize),
-    /// A state that cannot be told from the text.
+    /// A state that cannot be determined from the text.
     Unknown,
     /// The end of the program: `finish()`.
     End,
 }
 
-/// What makes a robot take a step.
+/// The cause of a robot's step.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cause {
     /// Whether it is a handler rather than an action.
     pub is_handler: bool,
-    /// The role whose robots do it, if not all do.
+    /// The role whose robots take it, if not all.
     pub role: Option<String>,
     /// The action's name, or that of the message or event.
     pub name: String,
 }
 
-/// Why there is no state machine to show.
+/// The reason why there is no state machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
     /// A library has no state.

@@ -8,7 +8,7 @@ use crate::syntax::SyntaxKind::*;
 /// How many spaces a block is indented.
 pub(super) const STEP: usize = 4;
 
-/// The state of what began in a line above and goes on.
+/// The state of a construct that began in a line above and continues.
 #[derive(Default)]
 pub(super) struct Continuation {
     /// The indentation of the line in which it began.

@@ -12,7 +12,7 @@ use crate::syntax::SyntaxKind::*;
 pub(super) struct Line {
     /// How many spaces it is indented.
     pub indentation: usize,
-    /// What is on it, without the comment after it.
+    /// The text of the line, without the comment after it.
     pub text: String,
     /// The comment at its end, if something is before that.
     pub comment: Option<String>,
@@ -24,18 +24,18 @@ pub(super) struct Line {
     pub depth: usize,
     /// If a declaration starts on it, which.
     pub starts: Option<Declaration>,
-    /// What it is.
+    /// Its sort.
     pub sort: Sort,
 }
 
-/// What a line is, as far as those around it matter.
+/// The sort of a line, as far as the lines around it depend on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sort {
-    /// Nothing but a comment.
+    /// Only a comment.
     Comment,
     /// The second or a later part of something with parts, such as `else`.
     Part,
-    /// A line that goes on with the one above.
+    /// A line that continues the one above.
     Continuation,
     /// Anything else.
     Other,
@@ -67,7 +67,7 @@ pub(super) fn lines(pieces: Vec<Piece>) -> Vec<Line> {
                 line.comment = Some(piece.content.text().into());
             }
             Some(before) => {
-                // After a comment between marks, which is an error, the line goes on.
+                // After a comment between marks, which is an error, the line continues.
                 let comment = line.comment.take();
                 if let Some(comment) = &comment {
                     line.text.push_str("  ");

@@ -1,10 +1,10 @@
-//! Laying a program out in the one canonical way.
+//! The formatter, with one canonical layout.
 //!
-//! What is on a line stays on a line: only white space between tokens changes, and with it neither the
-//! meaning nor any comment (after gofmt). A line is indented by four spaces for each block that it is in.
-//! A declaration with errors stays as it is, because what its white space means is not known.
+//! As in gofmt, tokens stay on their lines: only the white space between them changes, so the meaning and the comments
+//! stay the same. Each block indents its lines by four spaces. A declaration with errors stays as it is, because the
+//! meaning of its white space is unknown.
 //!
-//! Formatting what was formatted changes nothing.
+//! Formatting is idempotent.
 
 mod blank;
 mod comments;
@@ -17,13 +17,13 @@ use alloc::string::String;
 
 use crate::syntax::{self, Parse};
 
-/// `text`, laid out anew.
+/// The formatted text.
 #[must_use]
 pub fn format(text: &str) -> String {
     format_parse(&syntax::parse(text))
 }
 
-/// A program that was read, laid out anew.
+/// The formatted text of a parsed program.
 #[must_use]
 pub fn format_parse(parse: &Parse) -> String {
     let pieces = piece::pieces(parse);

@@ -1,5 +1,4 @@
-//! What a program is made of, white space aside: tokens, comments, and declarations with errors as they
-//! are.
+//! The parts of a program without its white space: tokens, comments, and declarations with errors as they are.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -9,12 +8,12 @@ use rowan::{NodeOrToken, WalkEvent};
 use crate::diagnostic::{Code, Severity, Span};
 use crate::syntax::{Parse, SyntaxElement, SyntaxKind, SyntaxKind::*, SyntaxNode, SyntaxToken};
 
-/// Something that is written, and how it stands in the source.
+/// A written piece, and its place in the source.
 pub(super) struct Piece {
     pub content: Content,
     /// How many line ends are before it.
     pub breaks: usize,
-    /// Whether it goes on with what began in a line above.
+    /// Whether it continues a construct from a line above.
     pub continues: bool,
     /// How many blocks it is in.
     pub depth: usize,
@@ -22,7 +21,7 @@ pub(super) struct Piece {
     pub starts: Option<Declaration>,
 }
 
-/// What is written.
+/// The content of a piece.
 pub(super) enum Content {
     /// A token or a comment.
     Token(SyntaxToken),
@@ -30,7 +29,7 @@ pub(super) enum Content {
     Verbatim(String),
 }
 
-/// What matters of a declaration for the lines around it.
+/// The sort of a declaration, as far as the lines around it depend on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Declaration {
     /// One of a line.
@@ -39,7 +38,7 @@ pub(super) enum Declaration {
     Block,
 }
 
-/// What may stand at the end of a line without being seen.
+/// Invisible characters at the end of a line.
 const BLANK: [char; 3] = [' ', '\t', '\r'];
 
 /// The pieces of a program.
@@ -69,7 +68,7 @@ pub(super) fn pieces(parse: &Parse) -> Vec<Piece> {
     walk.pieces
 }
 
-/// The lines, as parts of the text by rising place, for which it is not known what white space means.
+/// The lines, as parts of the text in ascending order, in which the meaning of white space is unknown.
 fn errors(parse: &Parse, root: &SyntaxNode) -> Vec<Span> {
     let known = [Code::TabIndentation, Code::MissingHeader];
     let errors = parse
@@ -145,7 +144,7 @@ struct Walk {
 }
 
 impl Walk {
-    /// What stands together on a line, or begins on it.
+    /// Adds a group: tokens that share a line, or that begin on one.
     fn group(&mut self, group: &[SyntaxElement], errors: &[Span]) {
         let matters =
             |element: &SyntaxElement| !element.kind().is_trivia() && element.kind() != Newline;
@@ -162,7 +161,7 @@ impl Walk {
         {
             return group.iter().for_each(|element| self.element(element));
         }
-        // What is before it on its line belongs to it.
+        // Tokens before it on its line belong to it.
         let line = group[..first]
             .iter()
             .rposition(|element| element.kind() == LineBreak);
@@ -269,7 +268,7 @@ impl Walk {
 }
 
 impl Content {
-    /// What the token is; nothing for a declaration that stays as it is.
+    /// The kind of the token; none for a declaration that stays as it is.
     pub fn kind(&self) -> Option<SyntaxKind> {
         match self {
             Self::Token(token) => Some(token.kind()),

@@ -1,4 +1,4 @@
-//! What a program declares, types aside.
+//! The declarations of a program, except types.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -32,7 +32,7 @@ pub struct Parameter {
     pub locals: Vec<Local>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -49,7 +49,7 @@ pub struct Constant {
     pub locals: Vec<Local>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -65,18 +65,18 @@ pub struct Variable {
     pub initial: Option<Expression>,
     /// Locals of the initial value (of its comprehensions).
     pub locals: Vec<Local>,
-    /// The role that it is declared in, by the role's variant: it gets its first value again whenever
-    /// the robot enters the role, as part of [`Role::entry`]. None outside of roles.
+    /// The role that it is declared in, by the role's variant: it gets its initial value again whenever the robot
+    /// enters the role, as part of [`Role::entry`]. None outside of roles.
     pub role: Option<u16>,
-    /// Whether it is saved where the robot has storage, and begins with what was saved.
+    /// Whether it is saved if the robot has storage, and begins with the saved value.
     pub is_stable: bool,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
-/// What robots may see of each other's writes to a shared variable.
+/// The consistency of a shared variable: the writes of others that a robot may see.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Consistency {
     /// Each write some time.
@@ -110,7 +110,7 @@ pub struct Shared {
     pub name: String,
     /// Whether each robot writes an element of its own (`allread`), rather than all the one value.
     pub is_single_writer: bool,
-    /// What robots may see of each other's writes.
+    /// Its consistency.
     pub consistency: Consistency,
     /// The type of the value, or of an element.
     pub ty: Type,
@@ -120,7 +120,7 @@ pub struct Shared {
     pub locals: Vec<Local>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -138,7 +138,7 @@ pub struct Binding {
     pub locals: Vec<Local>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -162,7 +162,7 @@ pub struct Local {
     pub span: Span,
 }
 
-/// Statements that run as one.
+/// Statements that run as a unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Procedure {
     /// The local variables.
@@ -186,7 +186,7 @@ pub struct Function {
     pub body: Vec<Statement>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -205,12 +205,12 @@ pub struct Roles {
 pub struct Role {
     /// Its name.
     pub name: String,
-    /// What a robot does on entering the role, at the start too (after [`super::Program::init`]): the
-    /// role's variables get their first values ([`Variable::role`]), then this runs.
+    /// Runs when a robot enters the role, also at the start after [`super::Program::init`]. The role's variables get
+    /// their first values before ([`Variable::role`]).
     pub entry: Option<Procedure>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -231,14 +231,14 @@ pub struct Action {
     pub hold: Option<Expression>,
     /// The least time from one firing to the next, a Duration.
     pub every: Option<Expression>,
-    /// What it does.
+    /// The statements of the effect.
     pub effect: Vec<Statement>,
     /// The linearizable variables that it uses, in ascending order: with any, it waits until no other robot
     /// does.
     pub atomic: Vec<SharedId>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -254,10 +254,10 @@ pub struct Check {
     pub site: Site,
 }
 
-/// What is done when a message arrives, a primitive reports something, or an operator gives an order.
+/// A handler of a message, of a primitive's event or of an operator's order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handler {
-    /// What it handles.
+    /// The event that it handles.
     pub event: Event,
     /// The role whose robots do it, by its variant; the body says so too.
     pub role: Option<u16>,
@@ -266,28 +266,27 @@ pub struct Handler {
     pub parameters: Vec<Option<LocalId>>,
     /// The local variables.
     pub locals: Vec<Local>,
-    /// What it does.
+    /// The statements of the handler.
     pub body: Vec<Statement>,
     /// Where it is declared: the name of the message, event or input.
     pub site: Site,
 }
 
-/// What a handler handles.
+/// The event of a handler.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
     /// One that is not known, which is an error.
     Error,
     /// A message; the handler's parameters are the sender, a robot, and the message's fields.
     Message(RecordId),
-    /// What a primitive reports.
+    /// An event of a primitive.
     Primitive {
         /// Which primitive.
         binding: super::BindingId,
-        /// What it reports.
+        /// The event.
         event: &'static EventSignature,
     },
-    /// An operator's order, or the notice that the way-points have changed
-    /// ([`starl_core::Order::WAY_POINTS`]).
+    /// An operator's order, or the notice that the waypoints have changed ([`starl_core::Order::WAY_POINTS`]).
     Input {
         /// Its name.
         name: String,
@@ -307,9 +306,9 @@ pub struct Property {
     pub robots: Vec<LocalId>,
     /// The local variables.
     pub locals: Vec<Local>,
-    /// What is claimed.
+    /// The claim.
     pub claim: Claim,
-    /// What has to hold for it to be judged, a Bool.
+    /// The assumption, under which the property is judged.
     pub assumption: Option<Expression>,
     /// How long it may be false after a fault has overwritten variables: a constant Duration.
     pub recovery: Option<Expression>,
@@ -317,25 +316,25 @@ pub struct Property {
     pub is_despite_crashes: bool,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
-/// What a property claims; all expressions are Bools without side effects.
+/// The claim of a property; all expressions are conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Claim {
     /// It is true at all times.
     Always(Expression),
     /// It is true at some time.
     Eventually {
-        /// What.
+        /// The condition.
         holds: Expression,
         /// When at the latest, since the start and since the last fault: a constant Duration.
         within: Option<Expression>,
     },
     /// It is true from some time on.
     EventuallyAlways {
-        /// What.
+        /// The condition.
         holds: Expression,
         /// From when on at the latest, since the start and since the last fault: a constant Duration.
         within: Option<Expression>,

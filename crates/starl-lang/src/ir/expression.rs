@@ -14,7 +14,7 @@ use crate::diagnostic::Span;
 /// An expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// What it is.
+    /// Its kind, with its parts.
     pub kind: ExpressionKind,
     /// The type of its value.
     pub ty: Type,
@@ -22,7 +22,7 @@ pub struct Expression {
     pub span: Span,
 }
 
-/// What an expression is. Parts are evaluated from left to right.
+/// The kind of an expression. Parts are evaluated from left to right.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionKind {
     /// One with an error that was reported.
@@ -75,7 +75,7 @@ pub enum ExpressionKind {
         builtin: Builtin,
         /// An argument for each parameter; none where an optional one is left out.
         arguments: Vec<Option<Expression>>,
-        /// Further arguments, of those that take any number, with their names if they have names.
+        /// Further arguments, of functions with any number of them, with their names if they have names.
         rest: Vec<(Option<String>, Expression)>,
     },
     /// A call of a method that changes nothing.
@@ -89,7 +89,7 @@ pub enum ExpressionKind {
     },
     /// A call of a method that changes what it is called on. It gives nothing.
     Change {
-        /// What is changed.
+        /// The changed place.
         place: Box<Place>,
         /// Which.
         method: Method,
@@ -143,7 +143,7 @@ pub enum ExpressionKind {
     Default {
         /// The optional.
         optional: Box<Expression>,
-        /// What it is if that is none: a value, or an optional again.
+        /// The value if that is none: a value, or an optional again.
         default: Box<Expression>,
     },
     /// `-x` of an Int, a Float or a Point.
@@ -161,7 +161,7 @@ pub enum ExpressionKind {
     },
     /// `item in collection`: a list, set, map (its keys), range, or a text in a text.
     In {
-        /// What is looked for.
+        /// The item.
         item: Box<Expression>,
         /// Where.
         collection: Box<Expression>,
@@ -175,7 +175,7 @@ pub enum ExpressionKind {
     },
     /// `if condition then a else b`
     Conditional {
-        /// What decides.
+        /// The condition.
         condition: Box<Expression>,
         /// The value if it holds.
         then: Box<Expression>,
@@ -204,7 +204,7 @@ pub enum ExpressionKind {
         is_universal: bool,
         /// The locals, all RobotIds; one after the other, so that `r, s` are all pairs.
         robots: Vec<LocalId>,
-        /// What is said of them.
+        /// The condition on them.
         condition: Box<Expression>,
     },
     /// `forall` or `exists` over a collection.
@@ -218,11 +218,11 @@ pub enum ExpressionKind {
         /// The condition on each element.
         condition: Box<Expression>,
     },
-    /// What another robot knows or is, in properties.
+    /// An attribute of a robot, in properties.
     OfRobot {
         /// The robot.
         robot: Box<Expression>,
-        /// What of it.
+        /// The attribute.
         member: RobotMember,
     },
 }
@@ -230,17 +230,17 @@ pub enum ExpressionKind {
 /// A collection that is built from another one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comprehension {
-    /// What is built for each element; the collection's type says what they make.
+    /// The element; the collection's type says what they form.
     pub element: Element,
-    /// What is bound for each element.
+    /// The variables bound for each element.
     pub variables: LoopVariables,
-    /// What it runs over: a list, set, map or range.
+    /// The source: a list, set, map or range.
     pub collection: Expression,
     /// Which elements are taken, if not all.
     pub condition: Option<Expression>,
 }
 
-/// What a comprehension makes for each element.
+/// The element that a comprehension adds in each step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Element {
     /// An element of a list or a set.
@@ -249,7 +249,7 @@ pub enum Element {
     Entry(Expression, Expression),
 }
 
-/// What properties may say of a robot.
+/// An attribute of a robot that properties can read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RobotMember {
     /// Its state variable.

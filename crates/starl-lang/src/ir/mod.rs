@@ -5,13 +5,13 @@
 //! program, of its libraries and of the prelude together. A body is a tree of [`Statement`]s and
 //! [`Expression`]s with a table of its [`Local`]s.
 //!
-//! What the source abbreviates is written out:
-//! - a value where an optional is expected is wrapped in [`ExpressionKind::Present`]; nothing else is
-//!   ever converted without being written;
+//! Abbreviations of the source are expanded:
+//! - a value where an optional is expected is wrapped in [`ExpressionKind::Present`]; there is no other implicit
+//!   conversion;
 //! - `elif` is an `if` in the `else`, `function f() -> T = e` has a body that returns `e`;
-//! - arguments stand in the order of the parameters, however they were given;
-//! - an action of a role has `role == ...` as the first part of its guard, a handler's body of a role
-//!   is an `if`; what is done on entering a role is its [`Role::entry`];
+//! - arguments are in the order of the parameters;
+//! - an action of a role has `role == ...` as the first part of its guard, a handler's body of a role is an `if`; the
+//!   code for entering a role is its [`Role::entry`];
 //! - a property without quantifier is one of a robot, and reads its variables by
 //!   [`ExpressionKind::OfRobot`] as others do.
 //!
@@ -42,19 +42,19 @@ pub struct Program {
     pub name: String,
     /// Whether it is a library.
     pub is_library: bool,
-    /// The files: 0 is the program, 1 the prelude, others are what is imported.
+    /// The files: 0 is the program, 1 the prelude, others are imports.
     pub files: Vec<String>,
     /// Enums.
     pub enums: Vec<Enum>,
     /// Records and messages.
     pub records: Vec<Record>,
-    /// Records in an order in which each comes after those that it is made of.
+    /// Records in an order in which each follows its parts.
     pub record_order: Vec<RecordId>,
-    /// What the scenario sets.
+    /// The parameters that the scenario sets.
     pub parameters: Vec<Parameter>,
     /// Constants.
     pub constants: Vec<Constant>,
-    /// Constants in an order in which each comes after those that its value needs.
+    /// Constants in an order in which each follows those that its value needs.
     pub constant_order: Vec<ConstantId>,
     /// State variables, in the order of the text; the variable `role` comes first, if there are roles.
     pub variables: Vec<Variable>,
@@ -72,7 +72,7 @@ pub struct Program {
     pub roles: Option<Roles>,
     /// Actions, in the order of the text, those of roles among them.
     pub actions: Vec<Action>,
-    /// What the variables always satisfy, in the order of the text; ranges of variables come first.
+    /// The invariants of variables, in the order of the text; the ranges of variables come first.
     pub checks: Vec<Check>,
     /// Handlers, in the order of the text, those of roles among them.
     pub handlers: Vec<Handler>,
@@ -87,8 +87,8 @@ impl Program {
         display::type_name(self, of)
     }
 
-    /// What robots call a message among each other: its name, with that of the library before it that
-    /// it is from, so that messages of two libraries are not taken for each other.
+    /// The name of a message between robots, with the name of its library, so that messages of two libraries are not
+    /// confused.
     #[must_use]
     pub fn message_name(&self, message: RecordId) -> String {
         let Record { name, site, .. } = &self[message];
@@ -99,8 +99,8 @@ impl Program {
         }
     }
 
-    /// The value that a variable of the type has if none is given is all zeros and nothing; whether
-    /// there is one. There is none for robots and areas and what must hold one.
+    /// Whether the type has a default value, which is all zeros and empty objects. Robots, areas, and types that must
+    /// contain one have none.
     #[must_use]
     pub fn has_default(&self, of: &Type) -> bool {
         match of {

@@ -8,13 +8,13 @@ use crate::diagnostic::Span;
 /// A statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// What it does.
+    /// Its kind, with its parts.
     pub kind: StatementKind,
     /// Where it is, in the file of the declaration that it belongs to.
     pub span: Span,
 }
 
-/// What a statement does.
+/// The kind of a statement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatementKind {
     /// `let x = value`
@@ -26,14 +26,14 @@ pub enum StatementKind {
     },
     /// `x = value`. The places' indices are evaluated first, from left to right, then the value.
     Assign {
-        /// What is written.
+        /// The assigned place.
         place: Place,
         /// The value, of the place's type.
         value: Expression,
     },
     /// `x += value`: the place's indices are evaluated once.
     Update {
-        /// What is changed.
+        /// The changed place.
         place: Place,
         /// `+`, `-` or `*`, with the place's value on the left and the place's type as result.
         operator: Operator,
@@ -48,26 +48,26 @@ pub enum StatementKind {
     },
     /// `if condition`
     If {
-        /// What decides.
+        /// The condition.
         condition: Expression,
-        /// What is done if it holds.
+        /// The statements if it holds.
         then: Vec<Statement>,
-        /// What is done if it does not.
+        /// The statements if it does not hold.
         otherwise: Vec<Statement>,
     },
     /// `for x in collection`. The collection is evaluated once; changes of the variable that it came
     /// from do not matter.
     For {
-        /// What is bound.
+        /// The loop variables.
         variables: LoopVariables,
         /// A list, set, map or range.
         collection: Expression,
-        /// What is done for each element, in order.
+        /// The statements for each element, in order.
         body: Vec<Statement>,
     },
     /// `return value`; without a value outside of functions.
     Return(Option<Expression>),
-    /// A call; what it gives is dropped.
+    /// A call whose result is dropped.
     Evaluate(Expression),
     /// `atomic`: the statements run while this robot alone writes the shared variables.
     Atomic {
@@ -79,7 +79,7 @@ pub enum StatementKind {
     },
 }
 
-/// What a loop or a comprehension binds for each element.
+/// The variables that a loop or a comprehension binds for each element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoopVariables {
     /// An element of a list, set or range, or a key of a map; none for `_`.
@@ -95,7 +95,7 @@ pub struct Place {
     pub root: Root,
     /// The way from the variable to its part.
     pub path: Vec<Step>,
-    /// The type of what is written.
+    /// The type of the written value.
     pub ty: super::Type,
     /// Where it is.
     pub span: Span,
@@ -104,7 +104,7 @@ pub struct Place {
 /// The variable that is written, or a part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Root {
-    /// What is no variable, which is an error.
+    /// An error: the target is not a variable.
     Error,
     /// A local variable.
     Local(LocalId),

@@ -9,7 +9,7 @@ use super::{EnumId, RecordId, Site};
 /// A type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Type {
-    /// Of what has an error that was reported; it fits everywhere.
+    /// The type of something with a reported error; it fits everywhere.
     Error,
     /// `Bool`
     Bool,
@@ -86,7 +86,7 @@ impl Type {
         Self::Map(Box::new(key), Box::new(value))
     }
 
-    /// `of?`; of what is optional already the same.
+    /// `of?`; an optional type stays the same.
     #[must_use]
     pub fn optional(of: Self) -> Self {
         match of {
@@ -110,13 +110,13 @@ impl Type {
 /// An enum. Its values are the numbers of its variants, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Enum {
-    /// Its name; none of `enum {a, b}` in the place of a type.
+    /// Its name; none of `enum {a, b}` in place of a type.
     pub name: Option<String>,
     /// The names of its variants.
     pub variants: Vec<Variant>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -140,7 +140,7 @@ pub struct Record {
     pub fields: Vec<RecordField>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 

@@ -1,4 +1,4 @@
-//! What can go wrong while a program runs, and while one is loaded.
+//! Errors of loading and running a program.
 
 use alloc::borrow::Cow;
 use alloc::string::String;
@@ -30,7 +30,7 @@ pub enum Fault {
     OutOfFuel,
     /// The program's values would need more bytes than it may have.
     OutOfMemory {
-        /// What it may have.
+        /// The budget.
         budget: u64,
     },
     /// Functions called one another too deeply.
@@ -69,7 +69,7 @@ impl fmt::Display for Fault {
 /// A fault and where it happened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RuntimeError {
-    /// What happened.
+    /// The fault.
     pub fault: Fault,
     /// The instruction, an index into the program's code; see
     /// [`Program::span`](crate::machine::Program::span).
@@ -89,7 +89,7 @@ impl core::error::Error for RuntimeError {}
 pub enum LoadError {
     /// The host offers no function that an import names.
     UnknownImport(String),
-    /// A model is no network that robots can evaluate.
+    /// A model is not a network that robots can evaluate.
     Model {
         /// Its path.
         path: String,

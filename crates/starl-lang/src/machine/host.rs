@@ -1,10 +1,9 @@
-//! What the machine asks of its host: everything that touches the robot and the world.
+//! The interface to the host, which provides everything that touches the robot and the world.
 //!
-//! A program names what it needs as imports, each with a name, the types of its arguments and results,
-//! and whether it is a query. Loading resolves every import to a number of the host's choice; running
-//! calls it by that number. A primitive is bound to a number by the program (its instance, counted
-//! from zero), and its methods and flags are imports like any other, `Mutex.acquire` or `Mutex.held`,
-//! with the instance as their first argument, an Int.
+//! A program lists the functions that it needs as imports, each with a name, the types of its arguments and results,
+//! and whether it is a query. Loading resolves every import to a number of the host's choice; running calls it by that
+//! number. A primitive is bound to a number by the program (its instance, counted from zero), and its methods and flags
+//! are imports like any other, `Mutex.acquire` or `Mutex.held`, with the instance as their first argument, an Int.
 
 use crate::machine::interpreter::scalar::bits;
 use crate::machine::types::{Layout, Type};
@@ -46,8 +45,8 @@ impl<F: Fn(&Import) -> Option<u32>> Resolve for F {
 
 /// A robot, as the machine sees it.
 pub trait Host {
-    /// Calls the function with this number. Arguments are read from `call` and results written to
-    /// it. What is given back is what the call costs in fuel beyond one; an error stops the program.
+    /// Calls the function with this number. Arguments are read from `call` and results written to it. Returns the fuel
+    /// that the call costs beyond one unit; an error stops the program.
     fn call(&mut self, function: u32, call: &mut HostCall<'_>) -> Result<u64, Cow<'static, str>>;
 
     /// Learns that the guard of the action with this number holds: its effect runs next.
@@ -68,7 +67,7 @@ pub trait Host {
 ///
 /// Registers beyond those of arguments and results read as zero and are not written.
 pub struct HostCall<'a> {
-    /// What is called.
+    /// The called function.
     pub import: &'a Import,
     /// Scalars of the arguments, then of the results.
     pub scalars: &'a mut [u64],

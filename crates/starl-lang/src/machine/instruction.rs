@@ -9,8 +9,8 @@
 //! value are in scalar registers and its objects in object registers, both in the order of the text
 //! ([`Layout`](crate::machine::Layout)).
 //!
-//! Operands `s0` to `s127` name objects of the robot's state in the place of object registers. The
-//! scalars of the state are read by `load` and written by `store`.
+//! Operands `s0` to `s127` name objects of the robot's state in place of object registers. The scalars of the state are
+//! read by `load` and written by `store`.
 //!
 //! A call shifts both windows: the callee's `r0` is the caller's register that the call names, so
 //! arguments are put there and results are found there, and nothing is copied. Registers of the caller
@@ -21,7 +21,7 @@
 //! holders changes it), a *shift* of n bytes is n over 64. Moving a block costs an eighth of its
 //! registers.
 //!
-//! Where an error is possible it is said; the machine stops there, and nothing after it happens.
+//! Possible errors are listed with each instruction; the machine stops at an error.
 
 use crate::machine::operand::*;
 use serde::{Deserialize, Serialize};
@@ -73,7 +73,7 @@ macro_rules! instructions {
                 operands.next().is_none().then_some(instruction)
             }
 
-            /// What the instruction does with its operands, in order.
+            /// Visits the uses of the operands, in order.
             pub fn uses(&self, visit: &mut dyn FnMut(Use)) {
                 match *self {
                     $(Instruction::$name { $($field),* } => {
@@ -284,8 +284,7 @@ instructions! {
 
     /// Calls a function whose windows begin at the named registers. Error: call depth.
     Call "call" { scalars: Block, objects: ObjectBlock, function: FunctionIndex }
-    /// Calls the host, see [`Host`](crate::machine::Host). What it costs beyond one, the host says. Error: the
-    /// host's own.
+    /// Calls the host, see [`Host`](crate::machine::Host). The host returns the cost beyond one. Error: the host's own.
     CallHost "call_host" { scalars: Block, objects: ObjectBlock, import: ImportIndex }
     /// Ends the function; its results are in the first registers. Object registers from `keep`, the number of
     /// objects among them, up to `until`, the number of object registers that it uses, are emptied.

@@ -1,7 +1,7 @@
-//! Functions that have no arguments and see neither the state nor the host, such as those that make the value
-//! of a constant: what they give is always the same, so it is computed once, when the program is loaded.
+//! Functions that have no arguments and see neither the state nor the host, such as those that make the value of a
+//! constant: their results never change, so they are computed once, when the program is loaded.
 //!
-//! Invariant: to call such a function, or to be given what is known of it, makes no difference but in fuel.
+//! Invariant: calling such a function and using its known result differ only in fuel.
 
 use crate::machine::host::{Host, HostCall};
 use crate::machine::interpreter::workspace::Workspace;
@@ -21,9 +21,8 @@ pub(in crate::machine) struct Known {
     pub bytes: usize,
 }
 
-/// The results of a program's functions, by number; none of those that have arguments, see something, or
-/// end in an error. All together take no more fuel than one activation may: a program that would is
-/// left to its activations.
+/// The results of a program's functions, by number; none of those that have arguments, see something, or end in an
+/// error. All together use at most the fuel of one activation; otherwise they are computed in the activations.
 pub(in crate::machine) fn of(program: &Program) -> Vec<Option<Known>> {
     let (mut state, mut workspace) = (State::default(), Workspace::new());
     let mut fuel = Limits::default().fuel;
@@ -58,6 +57,6 @@ struct Nobody;
 
 impl Host for Nobody {
     fn call(&mut self, _: u32, _: &mut HostCall<'_>) -> Result<u64, Cow<'static, str>> {
-        Err("there is nobody to ask".into())
+        Err("a constant cannot call the host".into())
     }
 }

@@ -1,16 +1,14 @@
 //! The machine that runs compiled programs.
 //!
-//! A program is a set of functions in [bytecode](Bytecode) for a register machine (see
-//! [`Instruction`]), with tables that say which of them are its actions, handlers and properties.
-//! [`Program::load`] verifies bytecode and joins it to a host; [`Machine`] runs parts of a program on
-//! the [`State`] of one robot, until they end or something goes wrong.
+//! A program is a set of functions in [bytecode](Bytecode) for a register machine (see [`Instruction`]), with tables
+//! that say which of them are its actions, handlers and properties. [`Program::load`] verifies bytecode and joins it to
+//! a host; [`Machine`] runs parts of a program on the [`State`] of one robot, until they end or fail.
 //!
-//! Invariants: bytecode that was verified cannot make the machine panic, run longer than its fuel
-//! allows or hold more memory than its budget; equal states, inputs and answers of the host give equal
-//! states and equal fuel, on every target; a robot's program is its program and its [`State`], nothing
-//! else is kept from one activation to the next.
+//! Invariants: bytecode that was verified cannot make the machine panic, run longer than its fuel allows or hold more
+//! memory than its budget; equal states, inputs and answers of the host give equal states and equal fuel, on every
+//! target; only the [`State`] is kept from one activation to the next.
 //!
-//! What becomes of a program's text (the module `compile` does it):
+//! The module `compile` translates a program's text as follows:
 //! - A state variable's scalars and objects are at fixed places of the [`State`], in the order of the
 //!   declarations. Scalars are loaded, worked on and stored; objects are worked on where they are.
 //! - A parameter is a variable that nothing assigns, after the others; `defaults` gives it its default

@@ -6,10 +6,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The first object operand that stands for a state variable rather than a register.
+/// The first object operand that names a state variable instead of a register.
 pub const FIRST_STATE_OPERAND: u8 = 128;
 
-/// What an instruction does with one operand, as the verifier sees it.
+/// The use of one operand by an instruction, as the verifier sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
     /// Reads this many scalar registers from the first on.
@@ -24,7 +24,7 @@ pub enum Use {
     ChangesObject(u8),
     /// Writes an object operand; the instruction's own rule says of which type.
     WritesObject(u8),
-    /// May go on at this instruction.
+    /// May continue at this instruction.
     JumpsTo(u32),
     /// A constant, index or width that the instruction's own rule checks.
     Number,
@@ -34,9 +34,9 @@ pub enum Use {
 pub trait Operand: Copy {
     /// The text form.
     fn write(self, out: &mut dyn core::fmt::Write) -> core::fmt::Result;
-    /// The operand that a word of text stands for; `label` finds the place of a label.
+    /// Reads an operand from a word of text; `label` finds the place of a label.
     fn read(word: &str, label: &dyn Fn(&str) -> Option<u32>) -> Option<Self>;
-    /// What the instruction does with it.
+    /// The use of the operand.
     fn used(self) -> Use;
     /// The same, at another place if it is the target of a jump.
     #[must_use]
@@ -189,7 +189,7 @@ number! {
     ImportIndex(u32), "h", |number| Use::Number;
 }
 
-/// Where to go on: an index into the whole program's instructions.
+/// Where to continue: an index into the whole program's instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Target(pub u32);
 

@@ -20,8 +20,7 @@ pub struct Bytecode {
     pub name: String,
     /// All functions' instructions, one function after the other.
     pub code: Vec<Instruction>,
-    /// Where instructions come from: the first instruction of each run of instructions that come
-    /// from one place, in ascending order.
+    /// The source positions of instructions: the first instruction of each run with one position, in ascending order.
     pub spans: Vec<(u32, Span)>,
     /// The source files, by the numbers that spans have; none of bytecode that was written by hand.
     pub files: Vec<SourceFile>,
@@ -33,7 +32,7 @@ pub struct Bytecode {
     pub enums: Vec<Enum>,
     /// Types of objects; each refers to earlier ones only.
     pub types: Vec<ObjectType>,
-    /// What is asked of the host.
+    /// The imported functions of the host.
     pub imports: Vec<Import>,
     /// State variables; their layout is that of the [`State`].
     pub variables: Vec<Variable>,
@@ -106,7 +105,7 @@ pub struct Span {
     pub end: u32,
 }
 
-/// A source file, as far as it takes to say where something is.
+/// A source file with the data for positions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SourceFile {
     /// Its name, for instance `race.starl`.
@@ -134,13 +133,13 @@ pub struct Variable {
     pub kind: Type,
     /// Whether the host gives it a value before the start.
     pub parameter: Parameter,
-    /// What values the host may give it; none if any of its type will do.
+    /// The values that the host may set; any value of its type if none.
     pub range: Option<Range>,
-    /// Whether the host saves it where the robot has storage; the start asks for what was saved.
+    /// Whether the host saves it if the robot has storage; the start requests the saved value.
     pub is_stable: bool,
 }
 
-/// What an Int, a Float or a Duration may be: from the one to before the other, as scalars.
+/// The range of an Int, a Float or a Duration, as scalars; the end is exclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Range {
     /// The least.
@@ -171,7 +170,7 @@ pub struct Enum {
     pub variants: Vec<String>,
 }
 
-/// What a function may do.
+/// The permissions of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FunctionKind {
@@ -191,7 +190,7 @@ pub enum FunctionKind {
 pub struct Function {
     /// Its name.
     pub name: String,
-    /// What it may do.
+    /// Its permissions.
     pub kind: FunctionKind,
     /// Its first instruction.
     pub entry: u32,
@@ -218,10 +217,10 @@ pub struct Action {
     pub effect: u32,
     /// The primitives that it must have for itself while it runs: linearizable variables.
     pub atomic: Vec<u32>,
-    /// Whether it is a check: its guard holds where the program's variables are not as they always are, and its
-    /// effect starts the program again. Checks come before all other actions.
+    /// Whether it is a check: its guard holds when the invariant is violated, and its effect restarts the program.
+    /// Checks precede all other actions.
     pub is_check: bool,
-    /// For how long its guard has to have held: a function like a guard whose results are a Bool and a Duration.
+    /// The time for which its guard must have held: a function like a guard whose results are a Bool and a Duration.
     pub hold: Option<u32>,
     /// The least time from one firing to the next, in the same way.
     pub every: Option<u32>,
@@ -234,19 +233,19 @@ impl Action {
     }
 }
 
-/// What is done about an event. Arguments of its procedure: for a message the sender, a robot, then
-/// the fields of the message; for a primitive's event or an input its fields.
+/// A handler of an event. Arguments of its procedure: for a message the sender, a robot, and then the fields of the
+/// message; for a primitive's event or an input its fields.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Handler {
     /// The name of the message, event or input.
     pub event: String,
-    /// Where it comes from.
+    /// Its origin.
     pub origin: Origin,
     /// The procedure.
     pub function: u32,
 }
 
-/// Where an event comes from.
+/// The origin of an event.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
@@ -272,11 +271,11 @@ pub struct Binding {
 pub struct Property {
     /// Its name.
     pub name: String,
-    /// What is claimed.
+    /// The claim.
     pub claim: Claim,
     /// For each robot (1), each pair of robots (2) and so on; 0 for a claim about the whole fleet.
     pub robots: u8,
-    /// What has to hold for it to be judged: a function as those of the claim.
+    /// The assumption under which the property is judged: a function like those of the claim.
     pub assumption: Option<u32>,
     /// Nanoseconds for which it may be false after a fault has overwritten variables; none for the usual.
     pub recovery: Option<u64>,
@@ -285,13 +284,13 @@ pub struct Property {
 }
 
 impl Property {
-    /// Whether it may be that nothing is claimed although nothing has changed, but for time.
+    /// Whether the verdict may change with time alone.
     pub(crate) fn is_timed(&self) -> bool {
         self.assumption.is_some() || matches!(self.claim, Claim::EventuallyAlways { .. })
     }
 }
 
-/// What a property claims; numbers are functions of kind property.
+/// The claim of a property; numbers are functions of kind property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Claim {
@@ -299,14 +298,14 @@ pub enum Claim {
     Always(u32),
     /// It holds at some time, this many nanoseconds after the start at the latest.
     Eventually {
-        /// What.
+        /// The condition.
         holds: u32,
         /// Nanoseconds; none for without limit.
         within: Option<u64>,
     },
     /// It holds from some time on, this many nanoseconds after the start and after each fault at the latest.
     EventuallyAlways {
-        /// What.
+        /// The condition.
         holds: u32,
         /// Nanoseconds; none for without limit.
         within: Option<u64>,
@@ -337,13 +336,13 @@ pub struct Program {
     pub(in crate::machine) parts: Vec<Parts>,
     pub(in crate::machine) texts: Vec<crate::machine::value::object::Object>,
     pub(in crate::machine) signatures: Vec<Signature>,
-    /// What functions give that always give the same.
+    /// The results of functions that always return the same value.
     pub(in crate::machine) known: Vec<Option<Known>>,
     state: Layout,
 }
 
 impl Program {
-    /// Verifies bytecode and resolves what it imports.
+    /// Verifies bytecode and resolves its imports.
     pub fn load(bytecode: Bytecode, host: &dyn Resolve) -> Result<Program, LoadError> {
         let tables = verify::verify(&bytecode)?;
         let resolve = |import: &Import| match host.resolve(import) {
@@ -399,14 +398,14 @@ impl Program {
         State::new(&self.state)
     }
 
-    /// Where an instruction comes from.
+    /// The source position of an instruction.
     pub fn span(&self, position: u32) -> Option<Span> {
         let spans = &self.bytecode.spans;
         let after = spans.partition_point(|(first, _)| *first <= position);
         Some(spans.get(after.checked_sub(1)?)?.1)
     }
 
-    /// Where an instruction comes from, as a person finds it: `race.starl:12:5`.
+    /// The source position of an instruction as text: `race.starl:12:5`.
     pub fn source(&self, position: u32) -> Option<String> {
         let span = self.span(position)?;
         let file = self.bytecode.files.get(span.file as usize)?;

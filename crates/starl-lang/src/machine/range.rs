@@ -14,7 +14,7 @@ impl Variable {
         self.range.is_none_or(|range| range.contains(value))
     }
 
-    /// The values that it may have, for people; none if there is no range.
+    /// Its range as text; none if there is no range.
     #[must_use]
     pub fn range_text(&self) -> Option<String> {
         let Range { from, before } = self.range?;

@@ -1,4 +1,4 @@
-//! What compiled programs know of types: how a value lies in registers, and how values are ordered.
+//! Types of compiled programs: the layout of values in registers, and their order.
 //!
 //! Invariant of a loaded program: object types refer to earlier ones only, so every value is a tree
 //! of limited depth.
@@ -58,7 +58,7 @@ pub enum ObjectType {
 /// How a scalar is ordered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Order {
-    /// As a signed integer: everything but Floats.
+    /// As a signed integer: everything except Floats.
     Integer,
     /// As a Float: -0.0 equals 0.0, NaN equals itself and comes last (first with its sign set).
     Float,

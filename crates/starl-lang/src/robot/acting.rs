@@ -1,7 +1,7 @@
-//! Actions with `atomic` in a program: tried on a copy, stored, and then performed; and what waits meanwhile.
+//! Actions with `atomic` in a program: tried on a copy, stored, and then performed; and the parts that wait meanwhile.
 //!
-//! Invariant: between the moment at which an action is tried and the one at which it is performed nothing runs
-//! that works with what it works with ([`Conflicts`]), so that it takes the same course.
+//! Invariant: between the trial and the execution of an action no part runs that conflicts with it ([`Conflicts`]), so
+//! that it takes the same path.
 
 use super::atomic::{Conflicts, Script, Step, Values};
 use super::code::Instance;
@@ -20,7 +20,7 @@ use starl_core::{Message, Robot};
 const MOST_WAITING: usize = 1000;
 
 impl RobotProgram {
-    /// Goes on with the action with `atomic` that waits, as far as can be now.
+    /// Continues the waiting action with `atomic`, as far as possible now.
     pub(super) fn go_on(&mut self, robot: &mut Robot<'_>) {
         let code = self.code.clone();
         while self.phase == Phase::Running
@@ -114,7 +114,7 @@ impl RobotProgram {
         arrival.is_some_and(|arrival| self.holds(arrival.handlers))
     }
 
-    /// Whether what has these handlers must wait until an action with `atomic` has taken place.
+    /// Whether an event with these handlers must wait until an action with `atomic` has taken place.
     pub(super) fn holds(&self, handlers: &[u32]) -> bool {
         self.services.held(&self.code).is_some_and(|held| {
             let mut handlers = handlers.iter();
@@ -147,8 +147,8 @@ impl RobotProgram {
     }
 }
 
-/// Of what primitives have reported, keeps what can be handled now, and gives what must wait until an action
-/// with `atomic` has taken place.
+/// Splits the reports of primitives: keeps those that can be handled now, and returns those that must wait until an
+/// action with `atomic` has taken place.
 pub(super) fn hold_back(
     instances: &[Instance],
     reports: &mut Vec<(u32, Report)>,

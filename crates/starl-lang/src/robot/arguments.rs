@@ -7,10 +7,10 @@ use alloc::vec::Vec;
 use starl_core::motion::Obstacles;
 use starl_core::{Area, Duration, Point, RobotId};
 
-/// What a function of the host gives: the fuel it costs beyond one, or why it refuses.
+/// The result of a host function: the fuel it costs beyond one, or the reason of the failure.
 pub type Called = Result<u64, Cow<'static, str>>;
 
-/// Arguments that have not been read yet. What is missing reads as zero and empty.
+/// Arguments that have not been read yet. Missing arguments read as zero and empty.
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a> {
     scalars: &'a [u64],
@@ -33,7 +33,7 @@ impl<'a> Arguments<'a> {
         arguments
     }
 
-    /// The next scalars and objects, so many of each.
+    /// The next scalars and objects, of these numbers.
     pub fn block(&mut self, scalars: usize, objects: usize) -> (&'a [u64], &'a [Object]) {
         let (block, rest) = self.scalars.split_at(scalars.min(self.scalars.len()));
         let (object_block, object_rest) = self.objects.split_at(objects.min(self.objects.len()));
@@ -41,7 +41,7 @@ impl<'a> Arguments<'a> {
         (block, object_block)
     }
 
-    /// All that has not been read.
+    /// All unread arguments.
     pub fn rest(self) -> (&'a [u64], &'a [Object]) {
         (self.scalars, self.objects)
     }
@@ -110,12 +110,12 @@ impl<'a> Arguments<'a> {
         self.object().text()
     }
 
-    /// An area; a variable that nothing was ever put in may hold none.
+    /// An area; a variable that was never assigned may have none.
     pub fn area(&mut self) -> Result<&'a Area, Cow<'static, str>> {
         self.object().area().ok_or("there is no area".into())
     }
 
-    /// Obstacles; a variable that nothing was ever put in holds none.
+    /// Obstacles; a variable that was never assigned has none.
     pub fn obstacles(&mut self) -> Obstacles {
         match self.object().body() {
             Some(Body::Obstacles(obstacles)) => obstacles.clone(),

@@ -28,11 +28,11 @@ struct Inner {
     program: Program,
     joints: Vec<Joint>,
     instances: Vec<Instance>,
-    /// What each action with `atomic` keeps waiting.
+    /// The conflicts of each action with `atomic`.
     conflicts: Vec<Option<Conflicts>>,
     /// See [`Code::is_steady`].
     is_steady: bool,
-    /// What its primitives need in common.
+    /// The services that its primitives need.
     needs: Needs,
     /// The same, made once for all robots: it takes longer to make than to copy.
     services: Services,
@@ -109,7 +109,7 @@ impl Code {
         self.0.initial.as_ref().map_err(|text| &text[..])
     }
 
-    /// What an import was joined to.
+    /// The joint of an import.
     pub(super) fn joint(&self, function: u32) -> Option<&Joint> {
         self.0.joints.get(function as usize)
     }
@@ -132,7 +132,7 @@ impl Code {
         (0..count).filter_map(|action| self.group(action))
     }
 
-    /// What an action with `atomic` keeps waiting while what it writes is stored.
+    /// The parts that wait while the writes of an action with `atomic` are stored.
     pub(super) fn conflicts(&self, action: u32) -> Option<&Conflicts> {
         self.0.conflicts.get(action as usize)?.as_ref()
     }
@@ -173,12 +173,12 @@ impl Code {
         self.program().source(guard.entry)
     }
 
-    /// What the program's primitives have in common, not started.
+    /// The services of the program's primitives, not started.
     pub(super) fn services(&self) -> &Services {
         &self.0.services
     }
 
-    /// What the program's primitives need in common.
+    /// The services that the program's primitives need.
     pub(super) fn needs(&self) -> Needs {
         self.0.needs
     }

@@ -1,7 +1,7 @@
 //! Transient faults: random values in place of a program's variables.
 //!
-//! Invariant: each is a value of its variable's type, so that the machine runs on as after any
-//! assignment. Parameters stay: they are the program's, as its code is.
+//! Invariant: each is a value of its variable's type, so that the machine continues as after any assignment. Parameters
+//! do not change: like the code, they belong to the program.
 
 use crate::machine::{ObjectType, Parameter, Program, State, Type, Value};
 use alloc::boxed::Box;

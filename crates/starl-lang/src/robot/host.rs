@@ -5,7 +5,7 @@ use super::atomic::{self, Script};
 use super::code::{Code, Instance};
 use super::joint::OnRobot;
 use super::messages::Outgoing;
-use super::primitives::{KINDS, Seat, Slot};
+use super::primitives::{BoundPrimitive, KINDS, Slot};
 use super::services::Services;
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
@@ -13,7 +13,7 @@ use alloc::borrow::Cow;
 use alloc::string::String;
 use starl_core::{Input, Payload, Port, Robot};
 
-/// What functions of the host work with.
+/// The context of host functions.
 pub struct Context<'a, 'r> {
     /// The program.
     pub code: &'a Code,
@@ -21,7 +21,7 @@ pub struct Context<'a, 'r> {
     pub robot: &'a mut Robot<'r>,
     /// Values that were made before.
     pub memo: &'a mut Memo,
-    /// What the program's primitives have in common.
+    /// The services that the program's primitives share.
     pub services: &'a mut Services,
     /// The primitive that the present call is about.
     pub instance: Option<&'a Instance>,
@@ -31,15 +31,15 @@ pub struct Context<'a, 'r> {
 
 /// A robot as the machine sees it.
 pub struct RobotHost<'a, 'r> {
-    /// What functions work with.
+    /// The context of functions.
     pub context: Context<'a, 'r>,
     /// The bound primitives.
     pub bound: &'a mut [Slot],
-    /// Why the program cannot go on, once it has said so.
+    /// Why the program cannot continue, once it has said so.
     pub failure: Option<String>,
     /// Whether an action has fired.
     pub has_fired: bool,
-    /// What calls do.
+    /// The treatment of calls.
     pub script: Script,
 }
 
@@ -84,16 +84,20 @@ impl RobotHost<'_, '_> {
         }
         self.context.instance = Some(form);
         let mut arguments = Arguments::after_instance(call);
-        let mut seat = Seat::new((kind_of.bind)(form, &mut self.context, &mut arguments)?);
-        if seat.port.is_some_and(|port| self.is_taken(port, instance)) {
+        let mut created =
+            BoundPrimitive::new((kind_of.bind)(form, &mut self.context, &mut arguments)?);
+        if created
+            .port
+            .is_some_and(|port| self.is_taken(port, instance))
+        {
             return Err("another primitive of the program has this name".into());
         }
-        if let Some(primitive) = seat.bound.primitive() {
-            // It hears of the start, as those do that are there before it.
+        if let Some(primitive) = created.bound.primitive() {
+            // It receives the start, as the primitives before it did.
             primitive.handle(self.context.robot, &Input::Start);
         }
         if let Some(slot) = self.bound.get_mut(instance) {
-            *slot = Some(seat);
+            *slot = Some(created);
         }
         Ok(1)
     }
@@ -103,8 +107,8 @@ impl RobotHost<'_, '_> {
         let mut others = self.bound.iter().enumerate();
         self.context.services.listen_at(self.context.code, port)
             || others.any(|(other, slot)| {
-                let seat = slot.as_ref().filter(|_| other != instance);
-                seat.is_some_and(|seat| seat.port == Some(port))
+                let slot = slot.as_ref().filter(|_| other != instance);
+                slot.is_some_and(|slot| slot.port == Some(port))
             })
     }
 
@@ -116,9 +120,9 @@ impl RobotHost<'_, '_> {
         }
         self.context.instance = form;
         match self.bound.get_mut(instance) {
-            Some(Some(seat)) => {
-                seat.is_stirred |= !call.import.query;
-                seat.bound
+            Some(Some(slot)) => {
+                slot.is_stirred |= !call.import.query;
+                slot.bound
                     .call(usize::from(member), &mut self.context, call)
             }
             _ => Err("the primitive is not bound yet".into()),

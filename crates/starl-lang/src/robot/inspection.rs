@@ -1,4 +1,4 @@
-//! Looks into a program that runs on a robot, without changing it: for those who watch or debug a run.
+//! Inspects a program that runs on a robot, without changing it: for observers and debuggers.
 
 use super::atomic::Script;
 use super::host::{Context, RobotHost};
@@ -35,7 +35,7 @@ pub struct ActionState {
     pub enabled: Result<bool, String>,
 }
 
-/// A primitive, and what it goes by.
+/// A primitive and its state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PrimitiveState {
     /// Its name in the program; what the program's primitives share has a name of its own.
@@ -49,8 +49,8 @@ pub struct PrimitiveState {
 }
 
 impl RobotProgram {
-    /// Its variables and parameters in the order of the text; none before it starts. A variable that a fault has
-    /// given what is no value of its type is left out.
+    /// Its variables and parameters in the order of the text; none before it starts. A variable whose value is invalid
+    /// after a fault is omitted.
     pub fn variables(&self) -> Vec<VariableState> {
         if !self.has_started() {
             return Vec::new();
@@ -111,18 +111,18 @@ impl RobotProgram {
             .collect()
     }
 
-    /// Its primitives in the order of the text, then what they share: the memory of shared variables, what
-    /// actions with `atomic` need, and the detector of failed robots.
+    /// Its primitives in the order of the text, then their shared services: the memory of shared variables, the state
+    /// of actions with `atomic`, and the failure detector.
     pub fn primitives_state(&self) -> Vec<PrimitiveState> {
         let bound = self.code.instances().iter().zip(&self.bound);
         let mut primitives: Vec<PrimitiveState> = bound
-            .map(|(instance, seat)| PrimitiveState {
+            .map(|(instance, slot)| PrimitiveState {
                 name: instance.variable.clone(),
                 kind: KINDS
                     .get(usize::from(instance.kind))
                     .map_or(String::new(), |kind| kind.name.to_string()),
-                port: seat.as_ref().and_then(|seat| seat.port),
-                state: seat.as_ref().map(|seat| format!("{seat:?}")),
+                port: slot.as_ref().and_then(|slot| slot.port),
+                state: slot.as_ref().map(|slot| format!("{slot:?}")),
             })
             .collect();
         let services = &self.services;

@@ -12,15 +12,15 @@ use core::cell::RefCell;
 /// An import joined to the functions that serve it.
 #[derive(Clone, Debug)]
 pub struct Joint {
-    /// What it does on a robot.
+    /// Its implementation on a robot.
     pub on_robot: Option<OnRobot>,
-    /// What it does where properties are judged.
+    /// Its implementation in properties.
     pub in_property: Option<properties::Run>,
     /// The message that it sends.
     pub message: Option<Outgoing>,
 }
 
-/// What an import does on a robot; kinds are numbered as in [`KINDS`].
+/// The implementation of an import on a robot; kinds are numbered as in [`KINDS`].
 #[derive(Clone, Copy, Debug)]
 pub enum OnRobot {
     /// It is a built-in function.
@@ -61,7 +61,7 @@ impl Joiner {
         self.joints.into_inner()
     }
 
-    /// Joins an import; gives the joint's number, or none if nobody serves the import.
+    /// Joins an import; returns the joint's number, or none if neither robots nor properties implement the import.
     pub fn join(&self, import: &Import) -> Option<u32> {
         let (on_robot, leading) = self.on_robot(import);
         let mut observables = OBSERVABLES.iter().filter(|observable| {
@@ -81,7 +81,7 @@ impl Joiner {
         u32::try_from(joints.len() - 1).ok()
     }
 
-    /// What the import does on a robot, and how many arguments come before its own.
+    /// The implementation of the import on a robot, and the number of arguments before its own.
     fn on_robot(&self, import: &Import) -> (Option<OnRobot>, usize) {
         let fits =
             |signature: &Signature, leading| self.declared.matches(import, signature, leading);

@@ -1,8 +1,8 @@
-//! Messages as they travel: a tag that says which message it is, then its fields.
+//! The encoding of messages: a tag that identifies the message, then its fields.
 //!
-//! The tag is a hash of the message's name and of the types of its fields, so that robots whose
-//! programs declare a message alike understand each other whatever else their programs hold. Bytes may
-//! come from anywhere: what is no message of the program is none, and nothing happens.
+//! The tag is a hash of the message's name and of the types of its fields, so that robots whose programs declare the
+//! same message can exchange it, whatever else their programs contain. Bytes are untrusted: anything except a message
+//! of the program is ignored.
 
 use super::shape::Declared;
 use crate::machine::{Bytecode, Layout, Object, ObjectType, Origin, Program, Type};
@@ -70,7 +70,7 @@ pub struct Inbox(Vec<Incoming>);
 
 /// A message or an order that arrived.
 pub struct Arrival<'a> {
-    /// What handles it.
+    /// Its handlers.
     pub handlers: &'a [u32],
     /// The scalars of its fields.
     pub scalars: Vec<u64>,
@@ -105,14 +105,14 @@ impl Inbox {
         Some(inbox)
     }
 
-    /// The handlers of the message that these bytes end with; none if they end with no message of the program. What
-    /// primitives send holds the message at its end.
+    /// The handlers of the message at the end of these bytes; none if there is no message of the program. A primitive's
+    /// message ends with the program's message.
     pub fn at_end_of(&self, program: &Program, bytes: &[u8]) -> Option<&[u32]> {
         let mut ends = (0..bytes.len()).filter_map(|start| bytes.get(start..));
         ends.find_map(|end| Some(self.decode(program, end)?.handlers))
     }
 
-    /// The message that these bytes are; none if they are no message of the program.
+    /// Decodes a message; none if the bytes are not a message of the program.
     pub fn decode(&self, program: &Program, bytes: &[u8]) -> Option<Arrival<'_>> {
         let (tag, fields) = bytes.split_first_chunk::<TAG>()?;
         let tag = u32::from_le_bytes(*tag);

@@ -1,13 +1,13 @@
 //! StarL programs on robots: the machine's host.
 //!
-//! [`Code`] is bytecode that was verified and joined to what robots offer; [`RobotProgram`] runs it on
-//! one robot as a [`starl_core::Program`], so that every host of native programs runs StarL programs
-//! too; [`properties`] judges what the program claims of itself.
+//! [`Code`] is verified bytecode, joined to the functions that robots offer; [`RobotProgram`] runs it on one robot as a
+//! [`starl_core::Program`], so that every host of native programs runs StarL programs too; [`properties`] judges the
+//! program's properties.
 //!
-//! What robots offer is in two tables: the language's built-in names, and kinds of primitives. Both
-//! say of each function what it takes and gives, so that loading refuses bytecode that was compiled for
-//! others. Nothing that comes from the network makes a program stop: what is no message of the program
-//! is ignored, and so is an order whose fields do not fit, with a warning. A run-time error stops the program of this one robot and names the place in its source.
+//! The functions that robots offer are in two tables: the language's built-in names, and kinds of primitives. Both list
+//! the arguments and results of each function, so that loading rejects bytecode that was compiled for other tables. No
+//! input from the network makes a program stop: unknown messages are ignored, and so are orders whose fields do not
+//! fit, with a warning. A run-time error stops the program of this one robot and names the place in its source.
 
 mod acting;
 mod arguments;

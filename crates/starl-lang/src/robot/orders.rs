@@ -1,7 +1,7 @@
 //! Orders of operators, and the inputs by which programs handle them.
 //!
-//! An order comes from outside, so nothing about it is trusted: where a field is missing or of another type the
-//! order is not run, and the text says why. Fields that the program does not name are of no concern to it.
+//! Orders are untrusted: if a field is missing or has another type the order is not handled, and the text gives the
+//! reason. Fields that the program does not name are ignored.
 
 use super::messages::Arrival;
 use super::program::{Part, Phase, RobotProgram, Waiting};
@@ -51,7 +51,7 @@ impl Orders {
         Some(orders)
     }
 
-    /// What the order's handlers are given; `None` if it has no handler.
+    /// The arguments of the order's handlers; `None` if it has no handler.
     ///
     /// # Errors
     /// A sentence that names the order, the first field that does not fit, and its type.

@@ -1,6 +1,6 @@
-//! When actions fire that wait for a time: `pre ... for` and `every`.
+//! The timing of actions that wait: `pre ... for` and `every`.
 //!
-//! Invariant: a moment that is yet to come, as a fault may have left it here, counts as now.
+//! Invariant: a time in the future, which a fault may have left here, counts as now.
 
 use crate::machine::{Action, Machine, RuntimeError};
 use starl_core::{Duration, Random, Time};
@@ -15,7 +15,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Whether the action is to fire at an activation.
+    /// Whether the action may fire at an activation.
     pub fn is_due(
         &mut self,
         action: &Action,
@@ -45,7 +45,7 @@ impl Pace {
     ) -> Result<(), RuntimeError> {
         self.held_since = Some(now);
         let every = duration(action.every, machine)?;
-        // Activations do not come at multiples of the time; the mean is kept all the same.
+        // Activations do not come at multiples of the time; the mean is correct nevertheless.
         let late = self
             .waited(now)
             .and_then(|waited| waited.0.checked_sub(every.0));

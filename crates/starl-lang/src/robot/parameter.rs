@@ -1,4 +1,4 @@
-//! What the scenario sets: values of a program's parameters.
+//! Values of a program's parameters, set by the scenario.
 
 use super::code::Code;
 use super::words::type_name;
@@ -15,7 +15,7 @@ use core::fmt;
 pub enum ParameterError {
     /// The program has no such parameter.
     Unknown {
-        /// What was given.
+        /// The given name.
         name: String,
         /// The parameters that there are.
         known: Vec<String>,
@@ -29,11 +29,11 @@ pub enum ParameterError {
         /// The value that was given.
         found: String,
     },
-    /// The value is none that the parameter may have.
+    /// The value is outside the parameter's range.
     OutOfRange {
         /// The parameter.
         name: String,
-        /// What it may be, e.g. `from 1 to 10`.
+        /// The range, e.g. `from 1 to 10`.
         range: String,
         /// The value that was given.
         found: String,

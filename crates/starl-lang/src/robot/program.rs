@@ -28,9 +28,8 @@ use starl_core::{
 
 /// A StarL program on one robot.
 ///
-/// Events of primitives are handled before anything else; a message or an order runs its handlers as it comes,
-/// and actions wait for the next activation. A run-time error stops the robot and ends its program with
-/// the place in the source.
+/// Events of primitives are handled first; a message or an order runs its handlers on arrival, and actions wait for the
+/// next activation. A run-time error stops the robot and ends its program with the place in the source.
 #[derive(Clone)]
 pub struct RobotProgram {
     pub(super) code: Code,
@@ -43,7 +42,7 @@ pub struct RobotProgram {
     pub(super) waiting: VecDeque<Waiting>,
     /// See [`RobotProgram::version`].
     version: u64,
-    /// What storage holds of its stable variables.
+    /// The stable variables in storage.
     kept: Option<Box<Kept>>,
     pub(super) phase: Phase,
     /// Whether it rests: see [`rest`](super::rest).
@@ -56,7 +55,7 @@ pub struct RobotProgram {
     target: Option<Point>,
 }
 
-/// What waits for an action with `atomic`.
+/// The activation that waits for an action with `atomic`.
 #[derive(Clone, Debug)]
 pub(super) enum Waiting {
     Message(Message),
@@ -70,7 +69,7 @@ pub(super) enum Phase {
     New,
     /// It runs.
     Running,
-    /// It has said that it cannot go on, or something went wrong.
+    /// It has said that it cannot continue, or something went wrong.
     Failed,
 }
 
@@ -117,7 +116,7 @@ impl RobotProgram {
         self.version
     }
 
-    /// What it runs.
+    /// The code that it runs.
     pub fn code(&self) -> &Code {
         &self.code
     }
@@ -127,7 +126,7 @@ impl RobotProgram {
         self.phase != Phase::New
     }
 
-    /// Runs a part of the program, after the handlers of what primitives have reported.
+    /// Runs a part of the program, after the handlers of pending events.
     pub(super) fn run(&mut self, robot: &mut Robot<'_>, mut part: Part<'_>) {
         if self.phase == Phase::Failed {
             return;
@@ -169,8 +168,8 @@ impl RobotProgram {
             robot.emit_fields("reset", fields.into_iter().collect());
         }
         if has_fired || is_told {
-            let seats = self.bound.iter().flatten();
-            let mut targets = seats.filter_map(|seat| seat.bound.target());
+            let slots = self.bound.iter().flatten();
+            let mut targets = slots.filter_map(|slot| slot.bound.target());
             self.target = targets.next().or(self.target);
             self.version += 1;
         }
@@ -206,24 +205,24 @@ fn check(code: &Code, machine: &mut Machine<'_>) -> Result<Option<u32>, RuntimeE
     Ok(first)
 }
 
-/// What is run at once.
+/// A part of a program that runs in one go.
 pub(super) enum Part<'a> {
     /// The first values of variables, bindings of primitives, and `init`.
     Start,
-    /// All actions, one after the other; of those that wait for variables it is found out which is next.
+    /// All actions, one after the other; the next of the actions that wait for variables is determined.
     Actions(&'a mut Turn),
     /// An action with `atomic` whose writes are stored.
     Perform(u32, Script),
-    /// All handlers of a message; nothing, if it is no message of the program.
+    /// All handlers of a message; none if it is not a message of the program.
     Message(&'a Message),
     /// All handlers of an order.
     Order(Arrival<'a>),
-    /// Nothing more than the handlers of what primitives have reported.
+    /// Only the handlers of pending events.
     Nothing,
 }
 
 impl Part<'_> {
-    /// What calls to the host are to do.
+    /// Takes the effects that calls to the host have requested.
     fn take_script(&mut self) -> Script {
         match self {
             Part::Perform(_, script) => mem::take(script),
@@ -311,15 +310,15 @@ fn handle_reports(
     Ok(())
 }
 
-/// Not derived: which primitives a program holds its code says, and what they do is told to the program.
+/// Not derived: which primitives a program holds its code says, and their events are passed to the program.
 impl Primitives for RobotProgram {
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
         let forms = self.code.instances().iter();
         for ((number, form), slot) in forms.enumerate().zip(&mut self.bound) {
-            let Some(seat) = slot else { continue };
-            let Some(port) = seat.port else { continue };
+            let Some(slot) = slot else { continue };
+            let Some(port) = slot.port else { continue };
             visit(&mut Attended {
-                seat,
+                slot,
                 port,
                 form,
                 number: number as u32,
@@ -390,7 +389,7 @@ impl Program for RobotProgram {
     }
 
     fn told(&mut self, robot: &mut Robot<'_>, order: &Order) {
-        // The way-points may have changed, and guards may ask for them.
+        // The waypoints may have changed, and guards may depend on them.
         self.rests = false;
         self.follow(robot, order);
     }
@@ -405,9 +404,9 @@ impl Program for RobotProgram {
         self.version += 1;
         self.rests = false;
         corruption::corrupt(self.code.program(), &mut self.state, random);
-        for seat in self.bound.iter_mut().flatten() {
-            seat.is_stirred = true;
-            seat.bound.corrupt(random);
+        for slot in self.bound.iter_mut().flatten() {
+            slot.is_stirred = true;
+            slot.bound.corrupt(random);
         }
         for (pace, action) in self
             .paces

@@ -1,10 +1,10 @@
-//! Programs that rest: no action is enabled, and none will be until something happens. Their guards need not be
-//! looked at meanwhile, and a fleet that waits costs little.
+//! Resting programs: no action is enabled, and none will be until there is an input. Their guards need not be evaluated
+//! meanwhile, so a fleet that waits costs little.
 //!
-//! Invariant: while a program rests, what its guards depend on is as it was when none of them held. They depend
-//! on its variables, which only the program itself and faults change, and on what its primitives tell. A
-//! primitive tells something else only after an input, or where an activation makes it do something. The
-//! way-points change only with an order, which ends the rest.
+//! Invariant: while a program rests, the values that its guards depend on are those for which no guard held. Guards
+//! depend on the program's variables, which only the program itself and faults change, and on its primitives. A
+//! primitive's values change only after an input or when an activation acts on it. The waypoints change only with an
+//! order, which ends the rest.
 
 use super::joint::{Joint, OnRobot};
 use crate::machine::{Action, Bytecode, Instruction};

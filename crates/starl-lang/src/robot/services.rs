@@ -1,5 +1,5 @@
-//! What the primitives of a program have in common, once for all of them: what its shared variables lie in,
-//! and the detector of failed robots. A program has what its primitives need.
+//! The services that the primitives of a program share: the storage of its shared variables, and the failure detector.
+//! A program has the services that its primitives need.
 
 use super::atomic::{Atomic, Conflicts};
 use super::code::Code;
@@ -17,12 +17,12 @@ pub struct Services {
     pub memory: Option<Box<SharedMemory>>,
     /// The linearizable variables.
     pub atomic: Option<Box<Atomic>>,
-    /// Who is believed to have failed.
+    /// The failure detector.
     pub detector: Option<Box<FailureDetector>>,
 }
 
 impl Services {
-    /// What a program of this name needs, not started.
+    /// The services of a program of this name, not started.
     pub fn of(program: &str, needs: Needs) -> Services {
         let Needs {
             memory,
@@ -45,7 +45,7 @@ impl Services {
         }
     }
 
-    /// What a program needs, started.
+    /// The services of a program, started.
     pub fn start(code: &Code, robot: &mut Robot<'_>) -> Services {
         let mut services = code.services().clone();
         services.primitives(code, &mut |primitive| {
@@ -61,7 +61,7 @@ impl Services {
         found
     }
 
-    /// What must wait now, since the writes of an action with `atomic` are being stored.
+    /// The operations that must wait while the writes of an action with `atomic` are being stored.
     pub fn held<'c>(&self, code: &'c Code) -> Option<&'c Conflicts> {
         code.conflicts(self.atomic.as_ref()?.stores()?)
     }
@@ -93,7 +93,7 @@ impl Services {
     }
 }
 
-/// What the detector of a program is called.
+/// The name of a program's detector.
 fn detector_name(program: &str) -> String {
     format!("{program}/failures")
 }

@@ -1,4 +1,4 @@
-//! Types of what the host offers to programs, and whether an import's types are those.
+//! Types of the host's functions, and the comparison with an import's types.
 //!
 //! The host's tables are written with these, in the order of the language's own tables.
 
@@ -63,7 +63,7 @@ pub enum Shape {
     Any,
 }
 
-/// What a function of the host is called, takes and gives.
+/// The name, arguments and results of a host function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signature {
     /// Its name.
@@ -89,7 +89,7 @@ pub const PLANNERS: [(&str, Planner); 4] = [
     ("rrt_star", Planner::RrtStar),
 ];
 
-/// Why a motion has come to nothing, as the prelude has it.
+/// The reasons of failed motions, by their names in the prelude.
 pub const MOTION_TROUBLES: [(&str, Trouble); 8] = [
     ("in_unsafe_set", Trouble::Unsafe),
     ("wind", Trouble::Wind),
@@ -149,8 +149,7 @@ impl Declared {
         self.objects.get(usize::from(index))
     }
 
-    /// Whether an import is of a function with this signature; `leading` arguments come before those
-    /// of the signature and are Ints.
+    /// Whether an import has this signature; `leading` arguments precede those of the signature and are Ints.
     pub fn matches(&self, import: &Import, signature: &Signature, leading: usize) -> bool {
         let Some((first, arguments)) = import.arguments.split_at_checked(leading) else {
             return false;

@@ -1,8 +1,8 @@
-//! Stable variables: where the robot has storage, each is saved under its name when it has changed, and begins with
-//! what was saved.
+//! Stable variables: if the robot has storage, each is saved under its name when it has changed, and begins with the
+//! saved value.
 //!
-//! A saved value begins with a tag, a hash of the variable's name and type. So a value that another version of the
-//! program saved with another type is not taken for one of this type.
+//! A saved value begins with a tag, a hash of the variable's name and type. So a value saved by another version of the
+//! program with another type is not used.
 
 use super::code::Code;
 use super::messages::tag;
@@ -51,7 +51,7 @@ pub fn saved<'s>(code: &Code, saved: &'s Saved, variable: usize) -> Option<&'s [
     stable.find(saved)?.strip_prefix(&stable.tag)
 }
 
-/// What storage holds of a program's stable variables.
+/// A program's stable variables in storage.
 #[derive(Clone, Debug)]
 pub struct Kept {
     /// The version of the variables that was saved last.
@@ -61,7 +61,7 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// What storage holds when the program has started; none if there is nothing to save.
+    /// The stored variables when the program has started; none if there is nothing to save.
     pub fn at_start(code: &Code, robot: &Robot<'_>) -> Option<Kept> {
         let (saved, stable) = (robot.saved()?, code.stable());
         (!stable.is_empty()).then(|| Kept {
@@ -70,7 +70,7 @@ impl Kept {
         })
     }
 
-    /// Saves what has changed since it was saved last.
+    /// Saves the variables that have changed since the last save.
     pub fn save(&mut self, code: &Code, state: &State, version: u64, robot: &mut Robot<'_>) {
         if core::mem::replace(&mut self.version, version) == version {
             return;
@@ -87,7 +87,7 @@ impl Kept {
         }
     }
 
-    /// All of it that makes a difference to what is saved from now on.
+    /// The part of the state on which later saves depend.
     pub fn digests(&self) -> &[Option<u64>] {
         &self.digests
     }

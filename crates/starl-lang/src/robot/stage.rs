@@ -1,4 +1,4 @@
-//! Which of a program's variables says where the program is, for those who watch many robots at once.
+//! The control variable of a program: its value shows the stage of each robot to an observer of many robots.
 //!
 //! Programs after the thesis keep that in a variable of an enum, as `loc` in its figure 2.1.
 
@@ -15,7 +15,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// The first variable of an enum that is no parameter; else the variable `role`, which comes before all others.
+    /// The first enum variable that is not a parameter; if there is none, the variable `role`.
     pub fn of(bytecode: &Bytecode) -> Option<Stage> {
         let mut scalar = 0;
         let mut role = None;
@@ -32,7 +32,7 @@ impl Stage {
         role
     }
 
-    /// The name of its value; none if a fault has given it what is no value of the enum.
+    /// The name of its value; none if a fault has given it an invalid value.
     pub fn read<'a>(&self, bytecode: &'a Bytecode, state: &State) -> Option<&'a str> {
         let variants = &bytecode.enums.get(usize::from(self.kind))?.variants;
         let value = usize::try_from(*state.scalars.get(self.scalar)?).ok()?;

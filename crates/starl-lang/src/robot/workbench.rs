@@ -1,8 +1,7 @@
-//! What is kept between activations to save work, for all robots that take turns on one thread.
+//! Caches that are kept between activations, shared by all robots that take turns on one thread.
 //!
-//! Invariant: nothing here makes a difference to what a program does. Registers are empty when an
-//! activation begins, and a value that was made before is given again only where a new one would be
-//! equal.
+//! Invariant: the caches do not change what a program does. Registers are empty when an activation begins, and a cached
+//! value is reused only where a new one would be equal.
 
 use crate::machine::{List, Object, Workspace};
 use alloc::vec::Vec;
@@ -17,7 +16,7 @@ pub struct Workbench {
     pub memo: Memo,
 }
 
-/// Values that robots of one fleet have in common, made once for all of them.
+/// Values shared by the robots of one fleet, created once.
 #[derive(Clone, Default)]
 pub struct Memo {
     way_points: Object,
@@ -25,7 +24,7 @@ pub struct Memo {
 }
 
 impl Memo {
-    /// The places of the way-points as a list.
+    /// The positions of the waypoints as a list.
     pub fn way_points(&mut self, way_points: &[WayPoint]) -> Object {
         let places = way_points.iter().map(|way_point| way_point.position);
         let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);

@@ -8,7 +8,7 @@ macro_rules! kinds {
         free { $($free:ident = $free_name:literal,)+ }
         nodes { $($node:ident,)+ }
     ) => {
-        /// What a token or a node of the tree is.
+        /// The kind of a token or a node of the tree.
         ///
         /// Tokens that are trivia come first, then those of the layout, those with one spelling, those
         /// with many, and then the nodes.
@@ -38,7 +38,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// What a token of this kind is called where a person is told of it.
+            /// The name of this kind of token in messages.
             #[must_use]
             pub const fn name(self) -> &'static str {
                 match self {
@@ -53,10 +53,10 @@ macro_rules! kinds {
 }
 
 kinds! {
-    // What stands between the tokens that matter.
+    // Tokens without meaning.
     trivia {
         Whitespace,
-        // The end of a line that ends nothing: an empty line, a line in brackets, a line that goes on.
+        // The end of a line that ends nothing: an empty line, a line in brackets, a line that continues.
         LineBreak,
         Comment,
         DocComment,
@@ -137,7 +137,7 @@ impl SyntaxKind {
             )
     }
 
-    /// Whether a line that ends with it goes on in the next one, if that is indented deeper.
+    /// Whether a line that ends with it continues in the next one, if that is indented deeper.
     #[must_use]
     pub fn continues_line(self) -> bool {
         matches!(

@@ -1,4 +1,4 @@
-//! What literals are worth.
+//! Values of literals.
 
 use alloc::string::String;
 use core::f64::consts::PI;
@@ -9,7 +9,7 @@ use super::SyntaxKind;
 pub(crate) struct Unit {
     /// How it is written.
     pub name: &'static str,
-    /// What a number with it is.
+    /// The kind of a number with it.
     pub kind: SyntaxKind,
     /// How many nanoseconds, metres or radians it has: this many, divided by `parts`.
     size: f64,
@@ -104,7 +104,7 @@ fn split(text: &str) -> (&str, Option<&'static Unit>) {
     (digits, unit(name))
 }
 
-/// A flaw of a string literal: which bytes of it, and what is wrong with them.
+/// A flaw of a string literal: its bytes and the problem.
 pub(crate) type StringFlaw = (core::ops::Range<usize>, &'static str);
 
 /// The value of a string literal in double quotes, and the flaws of its escapes, which are left out.

@@ -1,11 +1,10 @@
-//! From text to a tree that holds every character of it.
+//! From text to a tree that contains every character of it.
 //!
-//! [`parse`] never fails: it gives a tree and what is wrong with the text. The tree's text is the
-//! source, comments and errors included (full fidelity, after Swift's libsyntax and rust-analyzer).
-//! [`ast`] is a typed view of the tree.
+//! [`parse`] never fails: it returns a tree and the problems of the text. The tree's text is the source, comments and
+//! errors included (full fidelity, after Swift's libsyntax and rust-analyzer). [`ast`] is a typed view of the tree.
 //!
-//! The way is: text, tokens (`lexer`), blocks (`layout`), tree (`parser`), placement rules that need the
-//! whole tree (`validation`).
+//! The steps are: text, tokens (`lexer`), blocks (`layout`), tree (`parser`), placement rules that need the whole tree
+//! (`validation`).
 
 pub mod ast;
 mod kind;
@@ -53,7 +52,7 @@ impl Parse {
         ast::SourceFile::of(self.syntax())
     }
 
-    /// What is wrong with the text, by rising place.
+    /// The problems of the text, sorted by position.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics

@@ -4,8 +4,7 @@ use alloc::vec::Vec;
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 
-/// Forgets the brackets that are not closed on a line whose end is a string that does not end: it has
-/// swallowed what closes them.
+/// Drops reports of unclosed brackets on a line that ends in an unterminated string: it contains the closing brackets.
 pub(super) fn forget_swallowed(text: &str, diagnostics: &mut Vec<Diagnostic>) {
     let is_open = |problem: &&Diagnostic| {
         problem.code == Code::MalformedString && problem.span.of(text).starts_with('"')

@@ -1,4 +1,4 @@
-//! Texts that nest deeply or go on for long are checked, or said to be too deep; none ends the checker.
+//! Texts that nest deeply or continue for long are checked, or said to be too deep; none ends the checker.
 
 use starl_lang::check::{NoLibraries, check};
 

@@ -1,8 +1,7 @@
-//! Every rule of the checker has a case in `diagnostics/check_*.md`: a program, and what a person sees.
+//! Every rule of the checker has a case in `diagnostics/check_*.md`: a program and its messages.
 //!
-//! A case is a heading, the program in a `starl` block, and the messages in a `text` block, which is
-//! empty or missing if there are none. Libraries that it imports come before it, in blocks `starl
-//! name`. With `BLESS=1` what is said now is written into the files instead.
+//! A case is a heading, the program in a `starl` block, and the messages in a `text` block, which is empty or missing
+//! if there are none. Libraries that it imports precede it, in blocks `starl name`. `BLESS=1` rewrites the messages.
 #![allow(clippy::disallowed_methods, reason = "the cases are files")]
 
 use std::collections::BTreeMap;
@@ -71,7 +70,7 @@ fn files() -> Vec<PathBuf> {
 }
 
 #[test]
-fn each_case_says_what_is_written() {
+fn each_case_has_its_messages() {
     let write = std::env::var_os("BLESS").is_some();
     let mut wrong = String::new();
     for path in files() {
@@ -114,13 +113,13 @@ fn each_code_of_the_checker_has_a_case() {
 }
 
 #[test]
-fn what_is_suggested_puts_the_problem_right() {
+fn suggested_fixes_solve_the_problem() {
     for path in files() {
         for case in cases(&fs::read_to_string(&path).unwrap()) {
             let libraries = |name: &str| case.libraries.get(name).cloned();
             let checked = check(&case.program, &libraries);
             for diagnostic in checked.diagnostics() {
-                let Some(mend) = &diagnostic.mend else {
+                let Some(fix) = &diagnostic.fix else {
                     continue;
                 };
                 let same = |checked: &Checked| {
@@ -130,9 +129,9 @@ fn what_is_suggested_puts_the_problem_right() {
                     })
                     .count()
                 };
-                let mended = check(&mend.apply(&case.program), &libraries);
-                let remains = same(&mended) >= same(&checked);
-                assert!(!remains, "{}: {}", case.heading, mend.message);
+                let fixed = check(&fix.apply(&case.program), &libraries);
+                let remains = same(&fixed) >= same(&checked);
+                assert!(!remains, "{}: {}", case.heading, fix.message);
             }
         }
     }

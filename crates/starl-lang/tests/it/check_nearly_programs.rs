@@ -1,4 +1,4 @@
-//! Whatever the text, checking it ends, and what is said of it lies in it.
+//! Checking ends for every text, and its diagnostics are within the text.
 
 use crate::common::{generator, mutation, written};
 use starl_lang::check::{Checked, check};
@@ -13,7 +13,7 @@ fn checked(text: &str) -> Checked {
     for file in &checked.files {
         for diagnostic in &file.diagnostics {
             let labels = diagnostic.labels.iter().map(|label| label.span);
-            let edits = diagnostic.mend.iter().flat_map(|mend| &mend.edits);
+            let edits = diagnostic.fix.iter().flat_map(|fix| &fix.edits);
             for span in labels
                 .chain(edits.map(|edit| edit.span))
                 .chain([diagnostic.span])

@@ -1,4 +1,4 @@
-//! What the checker gives: everything resolved, nothing abbreviated.
+//! The checker resolves every name and expands every abbreviation.
 
 use crate::common::{mutation, written};
 use starl_lang::check::{Checked, NoLibraries, check};
@@ -57,7 +57,7 @@ fn a_value_becomes_an_optional_where_one_is_expected() {
 }
 
 #[test]
-fn arguments_stand_in_the_order_of_the_parameters() {
+fn arguments_are_in_the_order_of_the_parameters() {
     let program = correct(
         "library L\nfunction f(a: Int, b: Bool) -> Int = a\nfunction g() -> Int = f(b = true, a = 1)\n",
     );
@@ -73,7 +73,7 @@ fn arguments_stand_in_the_order_of_the_parameters() {
 }
 
 #[test]
-fn what_a_guard_binds_is_known_in_the_effect() {
+fn names_bound_in_a_guard_are_known_in_the_effect() {
     let program = correct(
         "program P\nstart()\n    pre some p = way_point(\"a\") and p.x > 1m\n    eff log(\"{}\", p)\n",
     );
@@ -113,7 +113,7 @@ fn roles_are_part_of_guards() {
 }
 
 #[test]
-fn properties_say_of_which_robots_they_are() {
+fn properties_have_their_robots() {
     let program = correct(
         "program P\nx: Int\nstart()\n    eff x += 1\nalways a: x >= 0\nalways b: forall r: forall s: r.x == s.x\neventually c: forall r: r.x > 1 within 5s\nalways d: exists r: r.x > 1\n",
     );
@@ -151,7 +151,7 @@ fn constants_and_records_have_an_order() {
 }
 
 #[test]
-fn writes_name_what_they_write() {
+fn writes_have_their_targets() {
     let program = correct(
         "program P\nallread pos[RobotId]: Point\nallwrite sum: Int = 0\nxs: List[Point]\nstart()\n    pre pos.size() < sum\n    eff pos[me] = position; sum += 1; xs[0].x = 1m; xs.add(position)\n        atomic\n            sum = xs.size()\n",
     );

@@ -1,5 +1,4 @@
-//! A message of a library has the library's name before its own on the way between robots, for those
-//! who send it and for those who handle it.
+//! On the network, a library's message has the library's name before its own, both for the sender and for the handler.
 
 use starl_lang::check::check;
 use starl_lang::compile::compile;
@@ -9,7 +8,7 @@ const TALK: &str = "library talk\n\nmessage Hello(to: RobotId)\n";
 const PROGRAM: &str = "program Greets\n\nimport talk\n\nmessage Hello(number: Int)\n\nradio = Broadcast()\n\ngreet()\n    eff radio.broadcast(talk.Hello(me)); radio.broadcast(Hello(3))\n\non talk.Hello(from, to)\n    log(\"{} {}\", from, to)\n\non Hello(_, number)\n    log(\"{}\", number)\n";
 
 #[test]
-fn two_messages_of_one_name_are_told_apart() {
+fn two_messages_of_one_name_are_distinguished() {
     let libraries = |name: &str| (name == "talk").then(|| TALK.to_string());
     let checked = check(PROGRAM, &libraries);
     let bytecode = compile(&checked).expect("robots have all that it needs");

@@ -36,7 +36,7 @@ fn shows(statement: &str, expected: &str) {
 }
 
 #[test]
-fn of_what_is_called() {
+fn of_the_called_function() {
     shows(
         "let z = twice($0",
         "function twice(«x: Int», y: Int) -> Int",

@@ -1,4 +1,4 @@
-//! What is suggested is what may stand at the cursor.
+//! The completions are the names that are allowed at the cursor.
 
 use crate::editor_support::{Beside, complete, complete_with, labels};
 use starl_lang::check::{Libraries, StandardLibraries};
@@ -86,7 +86,7 @@ fn after_the_dot_of_an_enum_its_variants() {
 }
 
 #[test]
-fn after_the_dot_of_a_library_what_it_has() {
+fn after_the_dot_of_a_library_its_declarations() {
     let found = labels("program P\nimport geometry\nconst c = geometry.$0\n");
     has(&found, &["midpoint"]);
     lacks(&found, &["distance", "c"]);
@@ -163,7 +163,7 @@ fn in_an_action_its_clauses() {
 }
 
 #[test]
-fn after_on_messages_and_what_reports() {
+fn after_on_messages_and_primitives_with_events() {
     let found = labels(&effect("\non $0(from, index)\n    loc = pick"));
     has(&found, &["Ping", "radio", "input"]);
     lacks(&found, &["motion", "Pair"]);
@@ -186,7 +186,7 @@ fn after_import_the_libraries() {
 }
 
 #[test]
-fn what_is_bound_is_a_primitive() {
+fn bindings_complete_primitives() {
     let found = labels("program P\nmotion = R$0\n");
     has(&found, &["ReachAvoid", "Registration", "Broadcast"]);
     lacks(&found, &["abs"]);
@@ -195,7 +195,7 @@ fn what_is_bound_is_a_primitive() {
 }
 
 #[test]
-fn in_a_property_what_is_said_of_robots() {
+fn in_a_property_attributes_of_robots() {
     let found = labels("program P\nloc: Int = 0\ninvariant a: forall r: r.$0\n");
     has(&found, &["loc", "position", "finished", "up"]);
     let found = labels("program P\nloc: Int = 0\ninvariant a: $0\n");
@@ -203,7 +203,7 @@ fn in_a_property_what_is_said_of_robots() {
 }
 
 #[test]
-fn what_is_called_says_so() {
+fn calls_are_marked() {
     let items = complete(&effect("        $0"));
     let call = |label: &str| {
         let found = items.iter().find(|item| item.label == label);
@@ -254,7 +254,7 @@ fn an_argument_may_be_given_by_its_name() {
 }
 
 #[test]
-fn what_has_the_expected_type_comes_first() {
+fn values_of_the_expected_type_come_first() {
     let found = labels("program P\na: Point\nb: Int\nc: Int\ngo()\n    eff let d = 3; b = $0\n");
     assert_eq!(found[..4], ["b", "c", "d", "a"]);
 }

@@ -78,7 +78,7 @@ fn of_locals_of_the_same_name_each_its_own() {
 }
 
 #[test]
-fn of_what_a_guard_binds() {
+fn of_a_name_bound_in_a_guard() {
     let text = "program P\nspot: Point?\ngo()\n    pre some p = spot and p.x > 0.0\n    eff log(\"{}\", p$0)\n";
     assert!(marked(text).contains("some «p» = spot and ‹p›.x"));
 }
@@ -93,7 +93,7 @@ fn of_roles_as_values() {
 }
 
 #[test]
-fn of_what_is_in_a_library() {
+fn of_a_librarys_declaration() {
     let (text, at) =
         cursor("program P\nimport tools\nx: tools.Pair\ny: Int = tools.tw$0ice(a = 2)\n");
     let tools = "library tools\nrecord Pair {left: Int, right: Int}\nfunction twice(a: Int) -> Int = a + a\nfunction four() -> Int = twice(2)\n";
@@ -124,20 +124,20 @@ fn of_what_is_in_a_library() {
 }
 
 #[test]
-fn what_is_built_in_has_none() {
+fn built_in_names_have_none() {
     let (analysis, found) = at_cursor("program P\nx: Float = ab$0s(2.0)\n");
     assert_eq!(analysis.definition(found.symbol), None);
 }
 
 #[test]
-fn of_what_the_prelude_declares() {
+fn of_a_declaration_of_the_prelude() {
     let (analysis, found) = at_cursor("program P\nx: Si$0de? = bumped\n");
     let site = analysis.definition(found.symbol).expect("it is declared");
     assert_eq!(analysis.checked.files[site.file as usize].name, "prelude");
 }
 
 #[test]
-fn names_of_what_has_errors_are_known_too() {
+fn names_in_declarations_with_errors_are_known() {
     let analysis =
         analysis("program P\nloc: Int = 0\ngo()\n    eff loc = \"a\"; loc = loc + unknown\n");
     let names = analysis.occurrences().iter();

@@ -24,7 +24,7 @@ fn collect(part: &Value, words: &mut BTreeSet<String>) {
             for (name, value) in fields {
                 match (name.as_str(), value) {
                     ("match" | "begin" | "end", Value::String(pattern)) => {
-                        // `\b` and the like are no part of a word.
+                        // `\b` and similar characters are not part of a word.
                         let pattern = pattern.replace("\\b", " ").replace("\\s", " ");
                         let is_part = |letter: char| letter == '_' || letter.is_alphanumeric();
                         let parts = pattern.split(|letter| !is_part(letter));

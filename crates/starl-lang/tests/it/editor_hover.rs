@@ -1,4 +1,4 @@
-//! What is shown of a name is its declaration and what is said of it.
+//! Hovering over a name shows its declaration and its documentation.
 
 use crate::editor_support::{Beside, cursor, hover};
 use starl_lang::editor::Analysis;
@@ -58,7 +58,7 @@ invariant rising: sum_of >= 0 and forall r: r.up
 stable sum_of: Int = 2
 ";
 
-/// What is shown of the first `word` after `context`.
+/// The text shown for the first `word` after `context`.
 fn shown(context: &str, word: &str) -> (String, String) {
     let start = PROGRAM.find(context).expect("the context is there");
     let at = start + PROGRAM[start..].find(word).expect("the word is there") + word.len();
@@ -73,7 +73,7 @@ fn shows(context: &str, word: &str, signature: &str, documentation: &str) {
 }
 
 #[test]
-fn of_what_the_program_declares() {
+fn of_the_programs_declarations() {
     shows("program", "Race", "program Race", "A race.");
     shows(
         "loc: Loc",
@@ -113,7 +113,7 @@ fn of_what_the_program_declares() {
         "stable sum_of",
         "stable",
         "stable name: Type = value",
-        "A variable that outlasts a crash where the robot has storage.",
+        "A variable that survives a crash if the robot has storage.",
     );
     shows("pos[me] =", "pos", "allread pos[RobotId]: Point", "");
     shows("sum = index", "sum", "allwrite sum: Int = 0", "");
@@ -128,11 +128,11 @@ fn of_what_the_program_declares() {
 }
 
 #[test]
-fn of_a_bound_primitive_what_kind_it_is() {
+fn of_a_bound_primitive_its_kind() {
     let (signature, documentation) = shown("not motion", "motion");
     assert_eq!(signature, "motion = ReachAvoid(vicinity = vicinity)");
     assert!(
-        documentation.starts_with("Goes.\n\nGoes to targets"),
+        documentation.starts_with("Goes.\n\nDrives to targets"),
         "{documentation}"
     );
 }
@@ -162,7 +162,7 @@ fn of_locals_their_types() {
 }
 
 #[test]
-fn of_what_every_program_has_what_the_tables_say() {
+fn of_built_in_names_the_tables_text() {
     let told = |context, word| {
         let (signature, documentation) = shown(context, word);
         assert!(!documentation.is_empty(), "nothing is said of {word}");
@@ -193,7 +193,7 @@ fn of_what_every_program_has_what_the_tables_say() {
 }
 
 #[test]
-fn of_what_a_library_has() {
+fn of_a_librarys_declarations() {
     let (signature, documentation) = shown("geometry.midpoint", "midpoint");
     assert_eq!(signature, "function midpoint(a: Point, b: Point) -> Point");
     assert!(documentation.contains("half-way"), "{documentation}");
@@ -218,7 +218,7 @@ fn of_a_library_beside_the_program() {
 }
 
 #[test]
-fn nothing_of_what_has_no_meaning() {
+fn nothing_without_a_meaning() {
     let analysis = Analysis::new("program P\nx: Int = unknown\n", &Beside(&[]));
     assert!(analysis.hover(21).is_none());
     assert!(analysis.hover(1_000).is_none());

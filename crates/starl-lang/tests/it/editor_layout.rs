@@ -6,7 +6,7 @@ use starl_lang::editor::layout;
 use starl_lang::format::format;
 
 #[test]
-fn the_edits_give_what_the_formatter_gives() {
+fn the_edits_give_the_formatted_text() {
     let untidy = "program   P\nx:Int=3   // three\n\n\n\n\ngo( )\n  pre x==3\n  eff   x=4;x=5\n";
     assert_eq!(edited(untidy, &layout(untidy)), format(untidy));
     for (name, text) in common::written() {
@@ -31,7 +31,7 @@ fn each_edit_is_of_white_space() {
 }
 
 #[test]
-fn what_is_laid_out_stays() {
+fn formatted_text_does_not_change() {
     for (name, text) in common::LISTINGS {
         let tidy = format(text);
         assert_eq!(layout(&tidy), [], "{name}");

@@ -34,7 +34,7 @@ fn in_the_listings() {
 }
 
 #[test]
-fn and_none_is_taken_for_a_word_of_the_language() {
+fn names_are_not_mistaken_for_keywords() {
     for (name, text) in common::LISTINGS {
         let analysis = analysis(text);
         let names = analysis.occurrences();

@@ -105,7 +105,7 @@ Property always
 }
 
 #[test]
-fn of_a_text_with_errors_what_can_be_read() {
+fn of_a_text_with_errors_its_valid_parts() {
     let text = "program P\nx: Int = = 3\ngo(\n    eff x = 1\n\nback()\n    eff x = 2\nrecord\nenum E {a,\n";
     let found = shown(text);
     assert!(found.contains("Variable x Int\n"), "{found}");

@@ -61,7 +61,7 @@ fn a_place_beyond_the_end_is_the_end() {
 }
 
 #[test]
-fn a_change_replaces_what_it_names() {
+fn a_change_replaces_its_range() {
     assert_eq!(replaced("aä€😀b", at(0, 3), at(0, 5), "-"), "aä€-b");
     assert_eq!(replaced("one\ntwo", at(0, 3), at(1, 0), " "), "one two");
     assert_eq!(replaced("one", at(0, 3), at(0, 3), "\n"), "one\n");

@@ -53,13 +53,13 @@ fn to_its_own_name_changes_nothing() {
 }
 
 #[test]
-fn what_is_no_name_is_refused() {
+fn invalid_names_are_rejected() {
     for name in ["", "1a", "a b", "a-b", "\u{e4}", "a\n"] {
         let reason = refused(COUNTER, name);
-        assert!(reason.contains("is no name"), "{reason}");
+        assert!(reason.contains("is not a name"), "{reason}");
     }
-    assert_eq!(refused(COUNTER, "if"), "`if` is a word of the language");
-    assert_eq!(refused(COUNTER, "_"), "`_` stands for what is not wanted");
+    assert_eq!(refused(COUNTER, "if"), "`if` is a keyword");
+    assert_eq!(refused(COUNTER, "_"), "`_` stands for an unused value");
 }
 
 #[test]
@@ -69,10 +69,7 @@ fn a_name_that_is_taken_is_refused() {
         "`count` cannot become `limit_of`: the name `limit_of` is taken (line 3)"
     );
     let reason = refused(COUNTER, "Point");
-    assert!(
-        reason.contains("`Point` has a meaning of its own"),
-        "{reason}"
-    );
+    assert!(reason.contains("`Point` is a built-in name"), "{reason}");
 }
 
 #[test]
@@ -85,7 +82,7 @@ fn a_name_that_would_hide_another_is_refused() {
 }
 
 #[test]
-fn a_name_that_others_would_be_taken_for_is_refused() {
+fn a_name_that_captures_others_is_rejected() {
     let text = "program P\nenum A {one, two}\nenum B {three$0, four}\na: A = two\ngo()\n    eff emit(\"x\", a = one, b = four); a = two\n    pre a == two\nb: B = three\n";
     let reason = refused(text, "one");
     assert!(
@@ -112,7 +109,7 @@ fn a_local_and_a_variant_do_not_get_mixed_up() {
 }
 
 #[test]
-fn what_every_program_has_keeps_its_name() {
+fn built_in_names_cannot_be_renamed() {
     let reason = refused("program P\nx: Float = ab$0s(2.0)\n", "b");
     assert_eq!(reason, "this is a name that every program has");
     let reason = refused("program P\nx: Si$0de? = bumped\n", "b");
@@ -123,12 +120,12 @@ fn what_every_program_has_keeps_its_name() {
     assert_eq!(reason, "the library `geometry` has the name of its file");
     assert_eq!(
         refused("program P\n$0\n", "b"),
-        "there is no name here that is known"
+        "there is no known name here"
     );
 }
 
 #[test]
-fn an_input_changes_its_name_in_every_role_and_the_way_points_keep_theirs() {
+fn an_input_is_renamed_in_every_role_except_the_input_of_waypoints() {
     let text = "program P\non input go$0(to: Point)\n    log(\"{}\", to)\nrole a\n    on input go(to: Point)\n        log(\"a {}\", to)\n";
     let after = "program P\non input walk(to: Point)\n    log(\"{}\", to)\nrole a\n    on input walk(to: Point)\n        log(\"a {}\", to)\n";
     assert_eq!(renamed(text, "walk").as_deref(), Ok(after));
@@ -150,10 +147,10 @@ fn a_field_of_an_input_keeps_its_name_where_another_role_would_differ() {
 }
 
 #[test]
-fn where_it_is_not_known_what_the_name_means_it_stays() {
+fn a_name_of_unknown_meaning_is_not_renamed() {
     let text = "program P\ncount$0: Int = 0\ngo()\n    eff count = 1\n) count +\nstop_it()\n    eff count = 1\n";
     let reason = refused(text, "number");
-    assert!(reason.ends_with("mend the errors first"), "{reason}");
+    assert!(reason.ends_with("fix the errors first"), "{reason}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Whatever is renamed in the listings, the program checks as before, and renaming it back gives the text.
+//! After any renaming in the listings the program checks as before, and renaming back restores the text.
 
 use crate::common::{EVERY_FORM, LISTINGS};
 use crate::editor_support::edited;
@@ -9,7 +9,7 @@ use starl_lang::editor::{Analysis, Occurrence};
 /// A name that none of the texts has.
 const NEW: &str = "entirely_new";
 
-/// The codes of what is wrong, and what every name stands for in the order of the text.
+/// The codes of the diagnostics, and the meaning of every name in the order of the text.
 fn meaning(analysis: &Analysis) -> (Vec<(Code, Severity)>, Vec<String>) {
     let told = analysis.diagnostics().iter();
     let told = told.map(|problem| (problem.code, problem.severity()));
@@ -35,7 +35,7 @@ fn rename(analysis: &Analysis, name: &Occurrence, to: &str) -> Result<String, St
     Ok(edited(analysis.text(), edits))
 }
 
-/// Renames all that the text declares; gives how many that were.
+/// Renames everything that the text declares; returns how many names it has renamed.
 fn all_of(label: &str, text: &str) -> usize {
     let before = Analysis::new(text, &StandardLibraries);
     let mut count = 0;

@@ -1,4 +1,4 @@
-//! Whatever the text, and wherever the cursor, the services answer and stay within the text.
+//! For every text and cursor, the services answer, with positions within the text.
 
 use crate::common::{self, mutation};
 use crate::editor_support::edited;
@@ -69,7 +69,7 @@ fn a_text_that_is_being_typed() {
 }
 
 #[test]
-fn texts_that_nobody_would_write() {
+fn texts_that_are_not_programs() {
     for text in [
         "",
         "\n",

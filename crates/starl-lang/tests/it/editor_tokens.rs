@@ -115,7 +115,7 @@ fn a_role_is_a_word_a_name_and_a_variable() {
 }
 
 #[test]
-fn they_come_in_order_and_none_overlaps_another() {
+fn they_are_in_order_and_do_not_overlap() {
     for (name, text) in common::written() {
         let found = tokens(&analysis(text));
         let words = found.iter().zip(found.iter().skip(1));

@@ -1,10 +1,9 @@
-//! Each code has a page in `docs/errors/` that tells a person of it, and the page is true: its wrong
-//! example gets the message that the page shows, and its mended example gets none.
+//! Each code has a page in `docs/errors/`, and the page is true: its wrong example gets the message that the page
+//! shows, and its fixed example gets none.
 //!
-//! A page is a title, prose, the wrong example in a block of `starl`, the message in a block of `text`,
-//! and the mended example in another block of `starl`. A library that an example imports stands before
-//! it in a block `starl name`. `BLESS=1 cargo test -p starl-lang --test it errors_pages` writes the
-//! messages and the tables of the index anew.
+//! A page is a title, prose, the wrong example in a block of `starl`, the message in a block of `text`, and the fixed
+//! example in another block of `starl`. A library that an example imports precedes it in a block `starl name`. `BLESS=1
+//! cargo test -p starl-lang --test it errors_pages` rewrites the messages and the tables of the index.
 #![allow(clippy::disallowed_methods, reason = "a test reads its pages")]
 
 use std::fs;
@@ -49,7 +48,7 @@ fn written(parts: &[Part]) -> String {
     parts.iter().map(text).collect()
 }
 
-/// An example as it is checked. That of a file which is too long goes on where the page says so.
+/// An example as it is checked. That of a file which is too long continues where the page says so.
 fn example(block: &str) -> String {
     let goes_on = "// and so on, for 16 MiB\n";
     if block.ends_with(goes_on) {
@@ -59,8 +58,7 @@ fn example(block: &str) -> String {
     }
 }
 
-/// What is wrong with a program: what the checker says of each file, and what the compiler says of the
-/// program where the checker has nothing to say.
+/// The problems of a program: the checker's for each file, or the compiler's if the checker finds none.
 struct Found {
     codes: Vec<Code>,
     said: String,
@@ -95,7 +93,7 @@ fn hold(code: Code, page: &str) -> Result<String, String> {
     }
     let mut libraries = PageFiles::default();
     let mut wrong = None;
-    let mut mended = false;
+    let mut fixed = false;
     for part in &mut parts {
         let Part::Block(kind, block) = part else {
             continue;
@@ -106,7 +104,7 @@ fn hold(code: Code, page: &str) -> Result<String, String> {
             *block = wrong.take().ok_or("a message stands before its example")?;
         } else if kind != "starl" {
             return Err(format!("there is a block of {kind:?}"));
-        } else if wrong.is_none() && !mended {
+        } else if wrong.is_none() && !fixed {
             let found = found(&example(block), &libraries);
             let own = |other: &Code| *other == code || *other == Code::BrokenLibrary;
             let only_own = code == Code::BrokenLibrary || found.codes.iter().all(own);
@@ -114,17 +112,17 @@ fn hold(code: Code, page: &str) -> Result<String, String> {
                 return Err(format!("the wrong example gets\n{}", found.said));
             }
             wrong = Some(found.said);
-            mended = true;
+            fixed = true;
         } else {
             let found = found(block, &libraries);
             if !found.codes.is_empty() {
-                return Err(format!("the mended example gets\n{}", found.said));
+                return Err(format!("the fixed example gets\n{}", found.said));
             }
-            mended = false;
+            fixed = false;
         }
     }
-    if wrong.is_some() || mended {
-        return Err("a page has a wrong example, its message and a mended example".into());
+    if wrong.is_some() || fixed {
+        return Err("a page has a wrong example, its message and a fixed example".into());
     }
     Ok(written(&parts))
 }
@@ -143,14 +141,14 @@ fn every_page_is_true() {
             Err(problem) => problems += &format!("{code}: {problem}\n"),
             Ok(now) if now == page => {}
             Ok(now) if bless => fs::write(&path, now).expect("a page that can be written"),
-            Ok(now) => problems += &format!("{code}: BLESS=1 writes it anew:\n{now}\n"),
+            Ok(now) => problems += &format!("{code}: BLESS=1 writes it again:\n{now}\n"),
         }
     }
     assert!(problems.is_empty(), "\n{problems}");
 }
 
 #[test]
-fn what_a_page_suggests_puts_one_thing_right() {
+fn the_fix_of_a_page_solves_one_problem() {
     for code in Code::ALL.iter().filter(|code| **code != Code::TooLong) {
         let path = folder().join(format!("{code}.md"));
         let mut libraries = PageFiles::default();
@@ -165,12 +163,12 @@ fn what_a_page_suggests_puts_one_thing_right() {
                 continue;
             }
             let before = check(block, &libraries);
-            for mend in before
+            for fix in before
                 .diagnostics()
                 .iter()
-                .filter_map(|one| one.mend.as_ref())
+                .filter_map(|one| one.fix.as_ref())
             {
-                let text = mend.apply(block);
+                let text = fix.apply(block);
                 let after = check(&text, &libraries);
                 let count = |checked: &Checked| {
                     let all = checked.diagnostics().iter();
@@ -179,7 +177,7 @@ fn what_a_page_suggests_puts_one_thing_right() {
                 assert!(
                     count(&after) < count(&before),
                     "{code}: {}\n{text}",
-                    mend.message
+                    fix.message
                 );
             }
         }

@@ -75,7 +75,7 @@ fn the_last_value_on_each_way_counts() {
 }
 
 #[test]
-fn what_loops_do_is_possible_and_need_not_happen() {
+fn effects_in_loops_are_possible_but_not_certain() {
     let text = "program P\nloc: enum {a, b, c} = a\ngo()\n    pre loc == a\n    eff\n        for p in way_points()\n            loc = if p.x > 1.0 then b else c\nback()\n    pre loc != a\n    eff loc = a\n";
     let expected = [
         "-> a",
@@ -89,7 +89,7 @@ fn what_loops_do_is_possible_and_need_not_happen() {
 }
 
 #[test]
-fn a_value_that_cannot_be_told_may_be_any() {
+fn an_unknown_value_may_be_any() {
     let text = "program P\nenum Loc {a, b}\nloc: Loc = a\nfunction next(l: Loc) -> Loc = if l == a then b else a\ngo()\n    pre loc in [a, b]\n    eff loc = next(loc)\n";
     assert_eq!(steps(text), ["-> a", "a -> ?: go", "b -> ?: go"]);
 }

@@ -1,5 +1,5 @@
-//! A state machine has every step that robots take: wherever an action has fired there was an edge of it,
-//! and a robot is where the edges lead.
+//! A state machine has every step that robots take: each fired action has an edge, and each robot is in the state at
+//! the end of an edge.
 
 use std::collections::BTreeSet;
 

@@ -40,7 +40,7 @@ fn check(text: &str) {
 }
 
 #[test]
-fn of_what_is_written_down() {
+fn of_written_programs() {
     for (name, text) in written() {
         check(text);
         assert_eq!(format(text), text, "{name} is not in canonical layout");
@@ -55,7 +55,7 @@ fn of_random_programs() {
 }
 
 #[test]
-fn of_what_is_nearly_a_program() {
+fn of_nearly_correct_programs() {
     for (_, text) in written() {
         for seed in 0..1000 {
             check(&mutation::mutated(text, seed));
@@ -71,6 +71,6 @@ fn of_noise() {
 }
 
 #[test]
-fn of_a_form_feed_at_the_end_of_what_stays_as_it_is() {
+fn of_a_form_feed_at_the_end_of_an_error() {
     check("program P\n\nx: = 1 )\u{c}\u{c}\ny: Int\n");
 }

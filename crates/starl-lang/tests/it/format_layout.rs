@@ -1,4 +1,4 @@
-//! What the canonical layout is: before, and after.
+//! The canonical layout: texts before and after formatting.
 
 use starl_lang::format::format;
 
@@ -49,7 +49,7 @@ fn maps_sets_and_optionals() {
 }
 
 #[test]
-fn one_empty_line_is_around_what_has_a_block() {
+fn one_empty_line_is_around_a_block() {
     check(
         "program P\nx: Int\ny: Int\nrun()\n    eff f()\non M(a)\n    g()\n\n\n\nz: Int\n",
         "program P\n\nx: Int\ny: Int\n\nrun()\n    eff f()\n\non M(a)\n    g()\n\nz: Int\n",
@@ -65,7 +65,7 @@ fn empty_lines_are_single_and_never_begin_a_block() {
 }
 
 #[test]
-fn comments_stay_with_what_they_are_about() {
+fn comments_stay_with_their_declarations() {
     check(
         "program P\n// of x\nx: Int\n// of run\nrun()\n  // of pre\n  pre a\n  eff\n    f()\n    // last\n// of y\ny: Int\n",
         "program P\n\n// of x\nx: Int\n\n// of run\nrun()\n    // of pre\n    pre a\n    eff\n        f()\n        // last\n\n// of y\ny: Int\n",
@@ -73,7 +73,7 @@ fn comments_stay_with_what_they_are_about() {
 }
 
 #[test]
-fn comments_at_the_ends_of_lines_stand_in_a_column() {
+fn comments_at_the_ends_of_lines_are_aligned() {
     check(
         "program P\n\nx: Int // one\nlonger: Int     // two\ny: Int\nz: Int// three\n",
         "program P\n\nx: Int       // one\nlonger: Int  // two\ny: Int\nz: Int  // three\n",
@@ -81,7 +81,7 @@ fn comments_at_the_ends_of_lines_stand_in_a_column() {
 }
 
 #[test]
-fn lines_that_go_on_are_indented_once_more() {
+fn continued_lines_are_indented_by_one_more_level() {
     check(
         "program P\n\nrun()\n    pre a and\n     b or\n          c\n    eff\n        if a and\n         b\n            f()\n        x = 1 +\n           2\n",
         "program P\n\nrun()\n    pre a and\n        b or\n        c\n    eff\n        if a and\n                b\n            f()\n        x = 1 +\n            2\n",
@@ -89,7 +89,7 @@ fn lines_that_go_on_are_indented_once_more() {
 }
 
 #[test]
-fn what_is_in_brackets_is_indented_by_their_lines() {
+fn lines_in_brackets_are_indented_by_their_depth() {
     check(
         "program P\n\nconst x = f(\n  1,\n      [\n 2,\n   3\n  ],\n)\nrecord R {\n  a: Int,\n  }\n",
         "program P\n\nconst x = f(\n    1,\n    [\n        2,\n        3\n    ],\n)\nrecord R {\n    a: Int,\n}\n",
@@ -97,7 +97,7 @@ fn what_is_in_brackets_is_indented_by_their_lines() {
 }
 
 #[test]
-fn an_effect_that_goes_on_is_aligned() {
+fn a_continued_effect_is_aligned() {
     check(
         "program P\n\nrun()\n    eff a = 1;b = 2\n          c = 3\n",
         "program P\n\nrun()\n    eff a = 1; b = 2\n        c = 3\n",
@@ -129,7 +129,7 @@ fn a_declaration_with_errors_stays_as_it_is() {
 }
 
 #[test]
-fn nothing_stays_nothing() {
+fn an_empty_text_stays_empty() {
     check("", "");
     check("\n\n", "");
     check("// only this", "// only this\n");

@@ -1,4 +1,4 @@
-//! What random programs once brought to light.
+//! Faults that random programs have found.
 
 use crate::support;
 use starl_lang::check::{NoLibraries, check};
@@ -36,7 +36,7 @@ fn empty_collections_stand_where_an_optional_is_expected() {
 }
 
 #[test]
-fn a_parameter_in_a_property_is_that_of_a_robot_not_of_what_a_comprehension_is_at() {
+fn a_parameter_in_a_property_belongs_to_the_quantified_robot() {
     let text = "program P\nparam limit: Int = 3\nxs: List[Int]\n\
                 invariant: [x for x in xs if x > limit].size() == 0\n";
     let program = checked(text);

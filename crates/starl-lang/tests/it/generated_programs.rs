@@ -61,7 +61,7 @@ fn the_checker_takes_them() {
 }
 
 #[test]
-fn the_machine_does_what_they_mean() {
+fn the_machine_agrees_with_the_reference_interpreter() {
     let counts = RefCell::new(BTreeMap::<Option<Compared>, u32>::new());
     each(2, 600, |bytes| {
         let compiled = hold::compiled(&generate::program(bytes));

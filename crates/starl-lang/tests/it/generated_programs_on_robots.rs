@@ -1,5 +1,5 @@
-//! Random well-typed programs on robots that talk to each other: nothing panics, no value is of a wrong
-//! type, the same happens again, and a copy goes on as what it was copied from.
+//! Random well-typed programs on robots that communicate: there is no panic and no value of a wrong type, runs repeat,
+//! and a copy continues like the original.
 
 use crate::robot_support::World;
 use crate::support::{generate, hold};
@@ -10,7 +10,7 @@ use starl_lang::robot::{Code, RobotProgram};
 
 const ROBOTS: u32 = 2;
 
-/// What may be known of the robots from outside.
+/// The robots as an observer sees them.
 struct Seen<'a>(&'a World, Vec<RobotId>);
 
 impl Fleet for Seen<'_> {
@@ -72,7 +72,7 @@ fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
     (world, judged)
 }
 
-/// Delivers what was sent once more, with a few bytes changed.
+/// Delivers sent messages again, with a few bytes changed.
 fn garble(world: &mut World, random: &mut Random) {
     let sent = world.sent().take(3);
     let sent: Vec<_> = sent
@@ -130,7 +130,7 @@ fn detail(random: &mut Random) -> Value {
     }
 }
 
-/// What there is to see of a run.
+/// The observable result of a run.
 fn seen((world, judged): &(World, String)) -> String {
     let mut text = format!("{:?}{judged}", world.records);
     for (robot, unit) in world.robots.iter().enumerate() {
@@ -154,7 +154,7 @@ fn never_go_wrong() {
             continue;
         };
         let code = Code::load(bytecode).unwrap_or_else(|error| panic!("{error}\n{text}"));
-        // A default that is a run-time error is told at once.
+        // A default that is a run-time error is reported at once.
         if RobotProgram::new(&code, &[]).is_err() {
             continue;
         }

@@ -1,5 +1,5 @@
-//! The grammar of the language reference is that of the parser: what it derives is read without an error,
-//! and it derives every program that is written down.
+//! The grammar of the language reference is that of the parser: texts that it derives are parsed without an error, and
+//! it derives every program of the tests.
 #![allow(clippy::disallowed_methods, reason = "a test reads its page")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,11 +12,11 @@ use starl_lang::syntax::{SyntaxKind, parse};
 /// The right side of a production.
 #[derive(Debug)]
 enum Form {
-    /// A word or a sign that stands for itself.
+    /// A literal word or sign.
     Word(String),
     /// A class of words, such as NAME.
     Class(String),
-    /// What another production makes.
+    /// A nonterminal.
     Rule(String),
     Row(Vec<Form>),
     Choice(Vec<Form>),
@@ -189,7 +189,7 @@ fn cost(form: &Form, costs: &BTreeMap<&str, u32>) -> u32 {
 }
 
 #[test]
-fn what_the_grammar_derives_is_read() {
+fn derived_texts_are_parsed_without_errors() {
     let grammar = grammar();
     let mut costs = BTreeMap::new();
     for _ in 0..grammar.len() {
@@ -344,7 +344,7 @@ fn is_name(word: &str) -> bool {
 }
 
 #[test]
-fn the_grammar_derives_what_is_read() {
+fn the_grammar_derives_every_parsed_program() {
     let grammar = grammar();
     let page = include_str!("../../../../docs/reference/language.md");
     let blocks = page.split("\n```starl\n").skip(1);
@@ -382,9 +382,7 @@ fn every_keyword_is_in_the_grammar() {
         .values()
         .for_each(|form| collect(form, &mut found));
     let page = include_str!("../../../../docs/reference/language.md");
-    let (_, listed) = page
-        .split_once("names of nothing: `")
-        .expect("the keywords");
+    let (_, listed) = page.split_once("cannot be names: `").expect("the keywords");
     let (listed, _) = listed.split_once('`').expect("their end");
     let listed: BTreeSet<&str> = listed.split(' ').collect();
     let reserved = found.iter().map(String::as_str);

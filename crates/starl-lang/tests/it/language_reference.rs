@@ -1,6 +1,5 @@
-//! The language reference is true: its programs have nothing wrong with them, and its tables of what
-//! every program may use are those of the checker. `BLESS=1 cargo test -p starl-lang --test
-//! language_reference` writes the tables anew.
+//! The language reference is true: its programs have no errors, and its tables of built-in names are those of the
+//! checker. `BLESS=1 cargo test -p starl-lang --test language_reference` rewrites the tables.
 #![allow(clippy::disallowed_methods, reason = "a test reads its page")]
 
 use std::fs;
@@ -90,7 +89,7 @@ fn prelude() -> String {
     format!("```text\n{}\n```\n", shown.trim_end())
 }
 
-/// The page with each generated part put after its mark, up to the next line that is no part of it.
+/// The page with each generated part replaced: from its mark to the next line that does not belong to it.
 fn with_tables(page: &str) -> String {
     let parts: [(&str, String); 4] = [
         ("<!-- built-in names and functions -->", builtins()),

@@ -1,5 +1,5 @@
-//! The functions of the standard library whose work grows faster than what they are given still end in one
-//! activation for fleets and shapes of ordinary size.
+//! The functions of the standard library with more than linear cost still end in one activation for fleets and shapes
+//! of ordinary size.
 
 use crate::robot_support::World;
 use starl_lang::check::{StandardLibraries, check};

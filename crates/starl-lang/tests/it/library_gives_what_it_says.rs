@@ -1,5 +1,5 @@
-//! The functions of the standard library, run on robots: each case of `library/*.starl` tells whether
-//! its function gave what is expected, and each function has a case.
+//! The functions of the standard library, run on robots: each case of `library/*.starl` compares the result of its
+//! function with the expected one, and each function has a case.
 
 use crate::robot_support::World;
 use starl_core::Value;

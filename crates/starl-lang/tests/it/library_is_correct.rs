@@ -1,5 +1,5 @@
-//! The standard library has nothing that is wrong with it, is laid out as programs are, and says what
-//! each of its declarations is.
+//! The standard library has no problems, is formatted as programs are, and documents each of its
+//! declarations.
 
 use starl_lang::check::{NoLibraries, STANDARD, check};
 use starl_lang::compile::compile;
@@ -20,7 +20,7 @@ fn nothing_is_wrong_with_it() {
 }
 
 #[test]
-fn it_is_laid_out_as_programs_are() {
+fn it_is_formatted() {
     for (name, text) in STANDARD {
         assert_eq!(format(text), *text, "{name}");
         for line in text.lines() {

@@ -1,5 +1,5 @@
-//! The reference of the standard library is what its sources say. `BLESS=1 cargo test -p starl-lang
-//! --test it library_reference` writes it anew.
+//! The reference of the standard library is generated from its sources. `BLESS=1 cargo test -p starl-lang --test it
+//! library_reference` rewrites it.
 #![allow(clippy::disallowed_methods, reason = "a test reads its page")]
 
 use std::fs;
@@ -12,9 +12,9 @@ use starl_lang::syntax::ast::{Documented, Item};
 /// Before the first library.
 const BEGINNING: &str = "# The standard library
 
-Libraries that every program can import, wherever it runs. They are written in the language, in
-`crates/starl-lang/library/`, and import nothing. A library of the same name beside the program goes before
-them.
+Every program can import these libraries, wherever it runs. They are written in the language, in
+`crates/starl-lang/library/`, and import nothing. If a library of the same name lies beside the program, that one is
+used.
 
 ```starl
 program Gather
@@ -93,7 +93,7 @@ fn page() -> String {
 }
 
 #[test]
-fn it_lists_all_that_there_is() {
+fn it_is_complete() {
     let page = page();
     if std::env::var_os("BLESS").is_some() {
         fs::write(path(), &page).expect("the page can be written");

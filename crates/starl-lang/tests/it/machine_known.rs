@@ -1,5 +1,5 @@
-//! What a function without arguments gives is computed when the program is loaded: to call it gives the same
-//! as to run it, for less, and what goes wrong in it goes wrong where it is called.
+//! The result of a function without arguments is computed when the program is loaded. Calling it returns the same
+//! result as running it, at a lower cost, and its errors occur at the call.
 
 use crate::machine_support::{call_within, program};
 use starl_lang::machine::{Fault, Limits};
@@ -23,13 +23,13 @@ fn it_is_not_run_again() {
 }
 
 #[test]
-fn what_goes_wrong_goes_wrong_where_it_is_called() {
+fn errors_occur_at_the_call() {
     let wrong = "int r0 1\n int r1 0\n divide_int r0 r0 r1\n return_scalar r0 #0";
     assert_eq!(called(wrong).0, Err(Fault::DivisionByZero));
 }
 
 #[test]
-fn what_takes_too_long_is_loaded_even_so() {
+fn functions_that_take_too_long_are_loaded_anyway() {
     let endless = "again:\n jump @again\n return_scalar r0 #0";
     assert_eq!(called(endless).0, Err(Fault::OutOfFuel));
 }

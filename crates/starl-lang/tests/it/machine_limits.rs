@@ -1,4 +1,4 @@
-//! Fuel, memory and call depth bound whatever a program does.
+//! Fuel, memory and call depth limit every program.
 
 use crate::machine_support::{RACE, TestHost, call, call_within, ints, program};
 use starl_lang::machine::{Fault, Limits, Machine, Workspace};
@@ -90,7 +90,7 @@ fn work_on_collections_costs_by_their_size() {
 }
 
 #[test]
-fn what_the_host_says_it_costs_is_paid() {
+fn the_cost_of_the_host_is_charged() {
     let program = program(
         "import expensive () ()\n function f procedure () () registers 1 objects 0\n\
          call_host r0 b0 h0\n return #0 #0",
@@ -140,7 +140,7 @@ fn copies_count_as_if_they_were_made() {
 }
 
 #[test]
-fn values_that_are_gone_do_not_count() {
+fn dropped_values_do_not_count() {
     let program = program(
         "type Text\n text \"0123456789012345678901234567890123456789\"\n\
          function f function (Int) (Int) registers 3 objects 1\n int r1 0\nagain:\n\

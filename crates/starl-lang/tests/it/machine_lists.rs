@@ -12,7 +12,7 @@ type List[{name: type0, place: Point}]
 type Set[Int]
 ";
 
-/// What a body makes of the list in `b0`, with three Ints in `r0` to `r2` and a second list in `b1`.
+/// Runs a body on the list in `b0`, with three Ints in `r0` to `r2` and a second list in `b1`; returns the list.
 fn list(body: &str, arguments: [i64; 3], lists: [&[i64]; 2]) -> Result<Vec<i64>, Fault> {
     let code = format!(
         "{DECLARATIONS} function test function (Int, Int, Int, type1, type1) (type1) \
@@ -188,7 +188,7 @@ fn a_changed_copy_leaves_the_original() {
 
 #[test]
 fn elements_of_several_scalars_and_objects() {
-    // Adds ("a", (x, x, x)) and ("b", (y, y, y)), puts the second in the place of the first, reads it.
+    // Adds ("a", (x, x, x)) and ("b", (y, y, y)), puts the second in place of the first, reads it.
     let code = format!(
         "{DECLARATIONS} text \"a\"\n text \"b\"\n\
          function test function (Float, Float) (Point, type0) registers 8 objects 3\n\

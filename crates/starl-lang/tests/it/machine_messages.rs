@@ -68,7 +68,7 @@ fn registers(program: &Program) -> (Vec<u64>, Vec<Object>) {
 }
 
 #[test]
-fn what_is_sent_is_received() {
+fn sent_messages_are_received() {
     let program = program(TYPES);
     let (scalars, objects) = registers(&program);
     let bytes = program
@@ -225,7 +225,7 @@ fn variables_have_names() {
 }
 
 #[test]
-fn sets_and_maps_are_put_in_order() {
+fn sets_and_maps_are_sorted() {
     let program = program(TYPES);
     let robot = |number| Value::Robot(RobotId(number));
     let write = |value: Value, kind: u16| {

@@ -1,4 +1,4 @@
-//! Instructions on scalars compute what is said of them, and stop where it is said.
+//! Instructions on scalars compute the documented results, and stop at the documented errors.
 
 use crate::machine_support::{float, int, of_floats, scalar};
 use starl_lang::machine::Fault;

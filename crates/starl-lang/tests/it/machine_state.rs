@@ -1,5 +1,5 @@
-//! A robot's program is its state: it can be copied, compared, digested, stored and gone on with at
-//! any time, and it is small.
+//! A robot's program is its state: it can be copied, compared, digested, stored and continued at any time, and it is
+//! small.
 
 use crate::machine_support::{self, RACE, TestHost, program};
 use starl_core::{Digest, Point, message};
@@ -35,7 +35,7 @@ fn half_way(program: &Program) -> State {
 }
 
 #[test]
-fn copies_stored_or_not_go_on_alike() {
+fn copies_continue_alike_stored_or_not() {
     let program = program(RACE);
     let mut original = half_way(&program);
     let mut copy = original.clone();
@@ -55,7 +55,7 @@ fn copies_stored_or_not_go_on_alike() {
 }
 
 #[test]
-fn fuel_does_not_depend_on_who_else_holds_a_value() {
+fn fuel_does_not_depend_on_other_holders_of_a_value() {
     let program = program(
         "type List[Int]\n variable list type0\n\
          function f procedure () () registers 2 objects 0\n\
@@ -83,7 +83,7 @@ fn fuel_does_not_depend_on_who_else_holds_a_value() {
 }
 
 #[test]
-fn empty_is_empty_however_it_came_about() {
+fn all_empty_values_are_equal() {
     let emptied = {
         let mut list = List::of_scalars(vec![1]);
         list.remove(0);
@@ -104,7 +104,7 @@ fn race_takes_less_than_a_kibibyte_a_robot() {
     let program = program(RACE);
     let mut state = half_way(&program);
     assert!(state.bytes() < 256, "{} bytes", state.bytes());
-    // With the 20 way-points of a long race.
+    // The 20 waypoints of a long race.
     state.objects[0] = List::of_points(&[Point::ZERO; 20]).into();
     assert!(state.bytes() < 1024, "{} bytes", state.bytes());
 }

@@ -5,7 +5,7 @@ use starl_core::message;
 use starl_lang::machine::{Bytecode, Instruction, assemble, disassemble};
 
 #[test]
-fn what_is_written_is_read_back() {
+fn the_text_form_is_read_back() {
     let inputs = "program P\nhandler go input f0 f1 speed\nhandler halt input f1\nfunction on.input.go \
                   procedure (Bool, Float) () registers 2 objects 0\n return #0 #0\nfunction on.input.halt \
                   procedure () () registers 1 objects 0\n return #0 #0\n";

@@ -195,13 +195,13 @@ fn ends() {
         "only guards may return false without their bindings",
     );
     let endless = "function f function () () registers 1 objects 0\n int r0 1";
-    assert!(reason(endless).ends_with("the function goes on past its end"));
+    assert!(reason(endless).ends_with("the function continues past its end"));
     let missing = "function f function () (Int) registers 1 objects 0\n return #0 #0";
     assert!(reason(missing).ends_with("a register is read that may not have been written"));
 }
 
 #[test]
-fn who_may_do_what() {
+fn each_kind_of_function_has_its_permissions() {
     let cases = [
         (
             "function",

@@ -38,7 +38,7 @@ on Vote(from, _)
 "#;
 
 #[test]
-fn a_robot_changes_its_role_and_does_what_that_role_does() {
+fn a_robot_that_changes_its_role_runs_the_actions_of_the_new_one() {
     let mut world = World::of(&compile(ROLES), 1);
     assert_eq!(world.get(0, "role"), Value::Variant("follower".into()));
     world.steps(3);

@@ -1,4 +1,4 @@
-//! LeaderElection in programs: all robots show one leader, are told of it at once, and get another when it
+//! LeaderElection in programs: all robots show one leader, get its event immediately, and get another leader when it
 //! resigns or fails.
 
 use crate::robot_support::{World, compile};
@@ -70,7 +70,7 @@ fn all_show_one_leader_and_another_when_it_resigns() {
 }
 
 #[test]
-fn who_is_cut_off_from_most_shows_no_leader() {
+fn a_robot_in_a_minority_partition_has_no_leader() {
     let mut world = World::of(&compile(&program("leases", 1000)), 3);
     world.steps(50);
     let leader = agreed(&world, &[0, 1, 2]).expect("a leader");

@@ -1,4 +1,4 @@
-//! A program handles the orders of operators that it has inputs for, and hears that the way-points have changed.
+//! A program handles the orders of operators for which it has inputs, and the event of changed waypoints.
 
 use crate::robot_support::{World, compile};
 use starl_core::event::Level;
@@ -32,7 +32,7 @@ fn order(name: &'static str, fields: &[(&'static str, Value)]) -> Input {
     })
 }
 
-/// What the orders have the program hear, and what is logged meanwhile.
+/// The inputs that the program handles for these orders, and the log meanwhile.
 fn heard(orders: &[Input]) -> (String, Vec<(Level, String)>) {
     let mut world = World::of(&compile(STEERED), 1);
     for order in orders {
@@ -75,7 +75,7 @@ fn an_order_runs_the_handler_of_its_name_with_its_fields() {
 }
 
 #[test]
-fn an_int_is_taken_for_a_float() {
+fn an_int_is_accepted_for_a_float() {
     let (texts, log) = heard(&[order("go", &[("speed", 2_i64.into())])]);
     assert_eq!((&texts[..], log), ("[\"go 2.0\"]", vec![]));
 }
@@ -128,7 +128,7 @@ fn an_order_without_a_handler_leaves_a_line_for_debugging() {
 }
 
 #[test]
-fn changed_way_points_are_no_order_to_a_program_that_does_not_listen() {
+fn a_program_without_that_input_ignores_changed_waypoints() {
     let (texts, log) = heard(&[order(Order::WAY_POINTS, &[])]);
     assert_eq!((&texts[..], log), ("[]", vec![]));
 }
@@ -176,7 +176,7 @@ fn way_points(world: &mut World, places: &[f64]) {
 }
 
 #[test]
-fn a_program_hears_that_the_way_points_have_changed() {
+fn a_program_handles_changed_waypoints() {
     let text = r#"
 program Tour
 
@@ -196,7 +196,7 @@ on input way_points()
 }
 
 #[test]
-fn a_program_at_rest_looks_at_its_guards_again_when_the_way_points_change() {
+fn changed_waypoints_wake_a_resting_program() {
     let text = r#"
 program Count
 

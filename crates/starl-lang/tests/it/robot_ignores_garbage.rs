@@ -1,4 +1,4 @@
-//! Whatever the network brings, a program hears its own messages and nothing else, and runs on.
+//! A program handles only its own messages, ignores all other bytes from the network, and continues.
 
 use crate::robot_support::{self, World, compile};
 use starl_core::{Destination, Input, Message, Payload, Port, Random, RobotId};
@@ -96,7 +96,7 @@ fn damaged_messages_are_ignored() {
             world.step();
         }
         let failed = world.failure(0);
-        // Damaged numbers are numbers all the same, and may be great.
+        // Damaged numbers are still numbers, and may be great.
         assert!(
             failed.is_none_or(|text| text.contains("too great")),
             "{failed:?}"

@@ -23,7 +23,7 @@ tick()
     eff count += 1; plain += 1
 ";
 
-/// What the storage of the only robot holds.
+/// The storage of the only robot.
 fn saved(world: &World) -> Saved {
     let store = world.robots[0].store.as_ref();
     Saved::clone(&store.map(Store::saved).unwrap_or_default())
@@ -63,7 +63,7 @@ fn without_storage_neither_survives() {
 }
 
 #[test]
-fn without_storage_it_makes_no_difference() {
+fn without_storage_it_has_no_effect() {
     let mut plain = World::of(&compile(&COUNTER.replace("stable ", "")), 1);
     let mut stable = World::of(&compile(COUNTER), 1);
     for world in [&mut plain, &mut stable] {
@@ -84,7 +84,7 @@ fn an_assignment_in_init_takes_the_place_of_the_saved_value() {
 }
 
 #[test]
-fn a_crash_before_the_write_is_done_undoes_the_change_and_what_came_of_it() {
+fn a_crash_before_the_write_undoes_the_change_and_its_effects() {
     let source = &format!("{COUNTER}\ntell()\n    eff emit(\"told\", count = count)\n");
     let mut world = World::on_storage(&compile(source), Saved::default());
     world.step();
@@ -271,7 +271,7 @@ tick()
         "",
     ];
     assert_eq!(keys, expected);
-    // What storage holds already is not saved again.
+    // Values that are already in storage are not saved again.
     let (mut agent, again) = started(source, Some(saved));
     assert_eq!(again, []);
     let [first, second] = [(); 2].map(|()| saves(&mut agent, &Input::Activate));
@@ -299,7 +299,7 @@ fn a_start_that_fails_leaves_storage_alone() {
 }
 
 #[test]
-fn a_run_time_error_keeps_what_the_robot_has_done_until_then() {
+fn a_run_time_error_keeps_earlier_changes() {
     let source =
         &format!("{COUNTER}\ncrash()\n    pre plain == 2\n    eff plain = 1 / (plain - 2)\n");
     let mut world = World::on_storage(&compile(source), Saved::default());

@@ -69,7 +69,7 @@ fn lost_messages_delay_it_and_break_nothing() {
 }
 
 #[test]
-fn a_robot_that_holds_something_and_asks_for_more_is_told() {
+fn a_holder_that_requests_more_gets_an_error() {
     let source = "program Greedy\nmux = Mutex(\"0\")\nfirst()\n    pre not mux.held({\"a\"})\n    \
                   eff mux.acquire({\"a\"})\nmore()\n    pre mux.held({\"a\"})\n    \
                   eff mux.acquire({\"b\"})\n";
@@ -77,5 +77,5 @@ fn a_robot_that_holds_something_and_asks_for_more_is_told() {
     world.steps(20);
     let text = (0..2).find_map(|robot| world.failure(robot));
     let text = text.expect("a robot stops");
-    assert!(text.contains("holds resources already"), "{text}");
+    assert!(text.contains("already holds resources"), "{text}");
 }

@@ -100,7 +100,7 @@ halt()
 "#;
 
 #[test]
-fn stop_stops_whatever_moves_the_robot() {
+fn stop_ends_every_kind_of_motion() {
     let mut world = World::of(&compile(STOPS), 1);
     world.step();
     world.step();

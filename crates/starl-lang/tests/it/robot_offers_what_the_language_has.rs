@@ -1,5 +1,5 @@
-//! The tables of the robot's functions and the language's tables of built-in names and primitives say
-//! the same: names, types of arguments and results, what changes something and what only tells.
+//! The tables of the robot's functions and the language's tables of built-in names and primitives agree: names, types
+//! of arguments and results, effects and queries.
 
 use starl_lang::check::{BUILTINS, Builtin, PRIMITIVES, Purity, Shape, Signature};
 use starl_lang::machine::{
@@ -216,7 +216,7 @@ fn primitives_are_offered_as_the_language_has_them() {
 }
 
 #[test]
-fn events_of_primitives_carry_what_the_language_says() {
+fn events_of_primitives_have_the_fields_of_the_language() {
     for primitive in PRIMITIVES {
         for event in primitive.events {
             let mut types = Types::default();

@@ -1,4 +1,4 @@
-//! Parameters: defaults, values that the scenario gives, and what is said of those that do not fit.
+//! Parameters: defaults, values of the scenario, and messages about invalid ones.
 
 use crate::robot_support::{World, compile};
 use starl_core::{Duration, Point};
@@ -142,7 +142,7 @@ idle()
 }
 
 #[test]
-fn a_default_that_cannot_be_worked_out_is_told_with_its_place() {
+fn a_default_that_cannot_be_computed_is_reported_with_its_position() {
     let code = compile("program Late\n\nconst zero = 0\n\nparam a: Int = 1 / zero\n\nb: Int = a\n");
     let error = RobotProgram::new(&code, &[]).map(|_| ()).unwrap_err();
     assert_eq!(error.to_string(), "late.starl:5:16: division by zero");

@@ -1,4 +1,4 @@
-//! Properties: each kind, for rows of robots and for the fleet, and what is said when one does not hold.
+//! Properties: each kind, for rows of robots and for the fleet, and the messages of violations.
 
 use crate::robot_support::{self, compile};
 use starl_core::{Duration, Point, Pose, RobotId, Time};
@@ -6,7 +6,7 @@ use starl_lang::machine::{State, Value};
 use starl_lang::robot::Code;
 use starl_lang::robot::properties::{Fleet, Judge, Reason, Standing, Violation};
 
-/// Robots whose state is what the test says.
+/// Robots whose state the test sets.
 pub struct Given {
     code: Code,
     ids: Vec<RobotId>,
@@ -14,7 +14,7 @@ pub struct Given {
     pub places: Vec<Point>,
     finished: Vec<bool>,
     pub up: Vec<bool>,
-    /// The versions of the robots' states, if they are told.
+    /// The versions of the robots' states, if they are recorded.
     versions: Option<Vec<u64>>,
     pub undisturbed: Duration,
     pub uncorrupted: Duration,
@@ -230,7 +230,7 @@ eventually some_day: exists r: r.done
 ";
 
 #[test]
-fn what_is_to_come_is_open_until_it_comes_or_is_too_late() {
+fn an_eventual_condition_is_open_until_it_is_true_or_late() {
     let mut fleet = Given::new(EVENTUALLY, 2);
     let mut judge = fleet.judge();
     let standings = |judge: &Judge| [0, 1, 2].map(|property| judge.standing(property));
@@ -242,7 +242,7 @@ fn what_is_to_come_is_open_until_it_comes_or_is_too_late() {
     assert_eq!(standings(&judge), [Open, Open, Holds]);
     assert_eq!(judge.standing_of(0, &[RobotId(0)]), Holds);
     assert_eq!(judge.standing_of(0, &[RobotId(1)]), Open);
-    // It came for one robot, and need not stay.
+    // It was true for one robot, and need not stay so.
     fleet.set(0, "done", Value::Bool(false));
     let violations = judge.observe(seconds(10), &fleet);
     assert_eq!(rows(&violations), [[1]]);
@@ -250,7 +250,7 @@ fn what_is_to_come_is_open_until_it_comes_or_is_too_late() {
     assert_eq!(violations[0].reason, Reason::NotInTime { within });
     assert_eq!(
         violations[0].to_string(),
-        "has not come true within 10s; robot 1 at (1.00, 0.00, 0.00): done = false"
+        "has not become true within 10s; robot 1 at (1.00, 0.00, 0.00): done = false"
     );
     // That of the fleet holds when it is true of all at once.
     fleet.finished = vec![true, false];
@@ -291,7 +291,7 @@ always sometime: asked leads_to answered
 ";
 
 #[test]
-fn what_follows_must_follow_in_time() {
+fn a_consequence_must_be_true_in_time() {
     let mut fleet = Given::new(LEADS_TO, 2);
     let mut judge = fleet.judge();
     let set = |fleet: &mut Given, robot, asked, answered| {
@@ -325,7 +325,7 @@ fn what_follows_must_follow_in_time() {
     assert!(
         violations[0]
             .to_string()
-            .starts_with("what is to follow within 5s has not since 10.000s")
+            .starts_with("the consequence is not true within 5s of 10.000s")
     );
     // Without limit nothing is too late.
     assert_eq!(judge.standing(1), Standing::Holds);
@@ -336,7 +336,7 @@ fn what_follows_must_follow_in_time() {
 }
 
 #[test]
-fn what_cannot_be_judged_is_said_with_its_place() {
+fn evaluation_errors_are_reported_with_their_position() {
     let source = "program Hard
 
 numbers: List[Int]
@@ -380,7 +380,7 @@ always listed: forall r: r in peers and now >= now and robot_name(r).size() == 6
 }
 
 #[test]
-fn judging_only_what_has_changed_makes_no_difference() {
+fn judging_only_changed_robots_gives_the_same_verdicts() {
     let source = "program Changes
 
 x: Int = 0

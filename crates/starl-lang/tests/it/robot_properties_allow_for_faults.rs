@@ -1,5 +1,5 @@
-//! What properties allow for: robots that are down, variables that were just overwritten, times after a fault, and what
-//! they assume.
+//! Properties excuse faults: robots that are down, variables that were just overwritten, times after a fault, and false
+//! assumptions.
 
 use crate::robot_properties::{Given, rows, seconds};
 use starl_core::{Duration, Point};
@@ -21,7 +21,7 @@ always alone: forall r: r.x < 10 assuming crashed == 0
 ";
 
 #[test]
-fn robots_that_are_down_do_not_count_unless_that_is_said() {
+fn robots_that_are_down_are_excused_by_default() {
     let mut fleet = Given::new(SAFE, 3);
     let mut judge = fleet.judge();
     fleet.up[1] = false;
@@ -54,7 +54,7 @@ fn overwritten_variables_are_not_judged_for_a_while() {
             .map(|violation| violation.name.clone())
             .collect()
     };
-    // Where a robot is no fault overwrites.
+    // No fault overwrites a robot's position.
     assert_eq!(
         names(&judge.observe(seconds(5), &fleet)),
         ["near", "bodies"]
@@ -83,7 +83,7 @@ fn a_run_in_which_nothing_was_overwritten_is_judged_from_its_start() {
 }
 
 #[test]
-fn nothing_is_judged_where_what_is_assumed_is_not_so() {
+fn nothing_is_judged_while_the_assumption_is_false() {
     let mut fleet = Given::new(SAFE, 2);
     let mut judge = fleet.judge();
     fleet.up[1] = false;
@@ -138,7 +138,7 @@ fn times_count_from_the_last_fault() {
 }
 
 #[test]
-fn what_has_come_is_to_stay_from_then_on() {
+fn eventually_always_must_stay_true() {
     let mut fleet = Given::new(LIVE, 1);
     let mut judge = fleet.judge();
     fleet.set(0, "done", Value::Bool(true));

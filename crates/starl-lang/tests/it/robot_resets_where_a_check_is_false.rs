@@ -1,4 +1,4 @@
-//! Where a check is false the program begins anew: its variables, its primitives and `init`.
+//! A program restarts when an invariant of its variables is false: its variables, its primitives and `init`.
 
 use crate::robot_support::{World, compile};
 use starl_core::{Input, Order, Point, Random, Value};
@@ -84,7 +84,7 @@ fn a_check_that_cannot_be_computed_is_false() {
 }
 
 #[test]
-fn variables_that_satisfy_the_checks_stay() {
+fn valid_variables_are_kept() {
     let mut world = corrupted("put", &[("number", 1_i64.into())]);
     world.step();
     assert_eq!(world.int(0, "count"), 2);
@@ -92,7 +92,7 @@ fn variables_that_satisfy_the_checks_stay() {
 }
 
 #[test]
-fn primitives_cease_what_they_did() {
+fn primitives_stop_their_work() {
     // To ask for a second resource while the first is held is an error.
     let source = GUARDED.replace("mux.acquire({\"a\"})", "mux.acquire({String(now)})");
     let source = source.replace("pre not motion.active", "pre count == 0");
@@ -107,7 +107,7 @@ fn primitives_cease_what_they_did() {
 }
 
 #[test]
-fn whatever_a_fault_writes_the_checks_hold_after_an_activation() {
+fn checks_hold_after_an_activation_for_any_corruption() {
     let code = compile(GUARDED);
     for seed in 0..200 {
         let mut world = World::of(&code, 1);

@@ -27,7 +27,7 @@ on Count(from, number)
 "#;
 
 #[test]
-fn it_begins_anew_with_its_parameters_and_is_heard() {
+fn a_restarted_program_keeps_its_parameters_and_is_heard() {
     let code = compile(COUNTER);
     let program = |step| RobotProgram::new(&code, &[("step", Value::Int(step))]).unwrap();
     let mut world = World::new(vec![program(5), program(1)]);
@@ -43,7 +43,7 @@ fn it_begins_anew_with_its_parameters_and_is_heard() {
 }
 
 #[test]
-fn starting_the_same_program_again_is_starting_anew() {
+fn starting_the_same_program_again_resets_it() {
     let mut world = World::of(&compile(COUNTER), 2);
     world.steps(3);
     world.input(0, &Input::Start);

@@ -1,5 +1,5 @@
-//! Actions with `atomic`: what several robots count together is counted once each, whatever the network does
-//! and whoever crashes; without `atomic` it is not.
+//! Actions with `atomic`: increments by several robots are counted exactly once, whatever the network does and
+//! whichever robot crashes; without `atomic` some are lost.
 
 use crate::robot_support::{self, World, compile};
 use starl_core::event::{PrimitiveEvent, RegisterEvent};
@@ -70,7 +70,7 @@ fn no_increment_is_lost() {
             world.step();
             steps += 1;
             let (added, seen) = (sum(&world, 4, "added"), most_seen(&world, 4));
-            // What others have seen may be stored and not be known to be.
+            // Values that others have seen may be stored without this being known.
             assert!(added <= seen && seen <= added + 3, "seed {seed}");
             assert!(steps < 10_000, "seed {seed}: {added} were added");
         }
@@ -88,7 +88,7 @@ fn without_atomic_increments_are_lost() {
 }
 
 #[test]
-fn partitions_delay_it_are_told_and_lose_nothing() {
+fn partitions_delay_actions_are_reported_and_lose_nothing() {
     let code = compile(COUNT);
     for seed in 0..20 {
         let mut world = World::over_bad_network(&code, 5, seed, 200);
@@ -139,7 +139,7 @@ fn is_storing(world: &World, robot: usize) -> bool {
 }
 
 #[test]
-fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
+fn an_increment_before_a_crash_counts_at_most_once() {
     let code = compile(COUNT);
     for seed in 0..60 {
         let mut world = World::over_bad_network(&code, 3, seed, 200);
@@ -174,7 +174,7 @@ fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
 }
 
 #[test]
-fn after_a_corruption_it_goes_on() {
+fn after_a_corruption_it_continues() {
     let code = compile(COUNT);
     for seed in 0..40 {
         let mut world = World::of(&code, 3);
@@ -230,7 +230,7 @@ count()
 "#;
 
 #[test]
-fn what_is_written_together_is_seen_together_even_if_robots_crash() {
+fn writes_of_one_action_are_seen_together_even_if_robots_crash() {
     let code = compile(TRANSFER);
     for seed in 0..20 {
         let mut world = World::over_bad_network(&code, 3, seed, 200);
@@ -279,7 +279,7 @@ fn an_action_waits_no_longer_when_its_guard_holds_no_longer() {
 }
 
 #[test]
-fn an_action_costs_what_is_documented() {
+fn an_action_has_its_documented_cost() {
     let source = COUNT.replace("pre added < 20", "pre added < 20 and peers.min() == me");
     for robots in [3, 5] {
         let mut world = World::of(&compile(&source), robots);

@@ -1,4 +1,4 @@
-//! The programs of the language's listings run, as far as robots have the primitives for them.
+//! The programs of the language's listings run on robots with their primitives.
 
 use crate::robot_support::{World, compile};
 use starl_lang::machine::Value;
@@ -31,9 +31,9 @@ fn a_formation_forms_by_shared_positions() {
     }
 }
 
-/// Figure 5.2: the vehicles of figure 5.3 agree on who is there, and cross without two in one zone.
+/// Figure 5.2: the vehicles of figure 5.3 register, and cross without two of them in one zone.
 #[test]
-fn an_intersection_is_crossed_by_those_that_have_registered() {
+fn registered_vehicles_cross_an_intersection() {
     let code = compile(include_str!("../listings/intersection.starl"));
     let mut world = World::of(&code, 4);
     // The zones of arrival C0, D0, B0 and A0; the destination of all is D1, to the right, ahead or left.

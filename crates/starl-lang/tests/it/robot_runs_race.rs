@@ -1,10 +1,10 @@
-//! Race on two robots: the first at a way-point tells the other, both go on and finish.
+//! Race on two robots: the first at a waypoint tells the other, both continue and finish.
 
 use crate::robot_support::{World, load, race::RACE};
 use starl_core::{Point, Value};
 
 #[test]
-fn both_robots_visit_all_way_points_and_finish() {
+fn both_robots_visit_all_waypoints_and_finish() {
     let places = [(1.0, 0.0), (2.0, 1.0), (0.0, 3.0)];
     let mut world = World::of(&load(RACE), 2).with_way_points(&places);
     world.steps(20);

@@ -48,7 +48,7 @@ fn heard(world: &World, robot: usize) -> Vec<String> {
 }
 
 #[test]
-fn each_way_reaches_whom_it_is_meant_for() {
+fn each_kind_of_sending_reaches_its_receivers() {
     let mut world = World::of(&compile(ALL_WAYS), 3);
     world.put(2, Point::planar(5.5, 0.0));
     world.steps(3);

@@ -1,4 +1,4 @@
-//! What a program knows of its robot and the world.
+//! A program's knowledge of its robot and the world.
 
 use crate::robot_support::{World, compile};
 use starl_core::sensor::{Contact, Detected, Detection, Ray};
@@ -62,8 +62,8 @@ fn sensors_are_read() {
 }
 
 #[test]
-fn robots_of_one_fleet_read_the_same_way_points_and_others_theirs() {
-    // The list is made once for all; it must be the right one for each all the same.
+fn each_fleet_reads_its_own_waypoints() {
+    // The list is made once for all; it must still be the right one for each.
     let code = compile(SENSES);
     let mut one = World::of(&code, 2).with_way_points(&[(1.0, 0.0)]);
     one.step();

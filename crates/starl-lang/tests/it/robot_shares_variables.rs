@@ -1,4 +1,4 @@
-//! Shared variables: what one robot writes the others come to read.
+//! Shared variables: the writes of one robot reach the others.
 
 use crate::robot_support::{World, compile};
 use starl_core::{Duration, Event, Port, Time};
@@ -46,7 +46,7 @@ fn an_initial_value_is_read_before_any_write() {
 }
 
 #[test]
-fn what_one_robot_writes_the_other_reads() {
+fn a_robot_reads_the_writes_of_another() {
     let mut world = World::of(&compile(SHARED), 2);
     world.steps(3);
     for robot in 0..2 {
@@ -59,7 +59,7 @@ fn what_one_robot_writes_the_other_reads() {
 }
 
 #[test]
-fn what_got_lost_is_repaired() {
+fn lost_writes_are_repaired() {
     let mut world = World::of(&compile(SHARED), 2);
     world.wire.loss = 1.0;
     world.steps(5);

@@ -1,5 +1,5 @@
-//! A run-time error stops the program of one robot, and the robot itself, and says where in the source
-//! it happened. The others go on.
+//! A run-time error stops the program of one robot, and the robot itself, and says where in the source it happened. The
+//! others continue.
 
 use crate::robot_support::{World, compile};
 
@@ -23,7 +23,7 @@ after()
 ";
 
 #[test]
-fn the_error_names_the_line_and_the_others_go_on() {
+fn the_error_names_the_line_and_the_others_continue() {
     let mut world = World::of(&compile(INDEX), 2);
     world.steps(4);
     let reason = world.failure(0).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! An action with `atomic` takes place when what it writes is stored, as it was found out: until then nothing
-//! that it depends on changes, and what does not matter to it goes on. Robots that die keep nobody waiting.
+//! An action with `atomic` takes place after its writes are stored, exactly as computed. Until then nothing that it
+//! depends on changes, while unrelated actions continue. Robots that crash do not block others.
 
 use crate::robot_support::{self, PERIOD, World, compile};
 use starl_core::event::{MutexEvent, PrimitiveEvent};
@@ -51,7 +51,7 @@ on More(_, amount)
 "#;
 
 #[test]
-fn what_an_action_depends_on_does_not_change_until_it_takes_place() {
+fn the_dependencies_of_an_action_do_not_change_until_it_takes_place() {
     let code = compile(DEPOSIT);
     for seed in 0..30 {
         let mut world = World::over_bad_network(&code, 3, seed, 300);
@@ -120,7 +120,7 @@ fn holds(world: &World, robot: u32) -> bool {
 }
 
 #[test]
-fn who_dies_with_the_lock_keeps_nobody_waiting_for_long() {
+fn a_crash_with_the_lock_does_not_block_others_for_long() {
     let code = compile(COUNT);
     let mut longest = Duration::ZERO;
     for seed in 0..60 {
@@ -209,12 +209,12 @@ fn clocks_that_run_wrong_leases_that_overlap_crashes_and_partitions_lose_no_coun
 }
 
 #[test]
-fn two_of_five_that_stay_dead_keep_nobody_waiting() {
+fn two_crashed_robots_of_five_do_not_block_the_others() {
     let code = compile(COUNT);
     for seed in 0..20 {
         let mut world = World::over_bad_network(&code, 5, seed, 300);
         let mut random = Random::keyed(seed, &[4]);
-        // All have come to take part; what those remember who die before that, nobody could know.
+        // All robots have joined by now; values that only robots remember which crash earlier would be lost.
         world.steps(60);
         for _ in 0..2 {
             world.steps(20 + random.below(20));

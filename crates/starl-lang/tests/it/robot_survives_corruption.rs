@@ -71,7 +71,7 @@ fn all_variables_get_values_of_their_types_and_the_program_runs_on() {
     for _ in 0..300 {
         world.corrupt(0, &mut random);
         let state = world.program(0).state();
-        // Values that are none of their types are left out here.
+        // Values that do not have their variable's type are left out here.
         let values: Vec<(String, Value)> = (code.program().values(state))
             .map(|(name, value)| (name.to_string(), value))
             .collect();
@@ -153,7 +153,7 @@ const PRIMITIVES: [(&str, &str); 8] = [
     ),
 ];
 
-/// What a program without variables shows of its primitives.
+/// The visible state of the primitives of a program without variables.
 fn primitives(world: &World) -> String {
     let mut text = String::new();
     assert!(world.program(0).write_state(&mut text));

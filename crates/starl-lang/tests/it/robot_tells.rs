@@ -1,4 +1,4 @@
-//! What a program tells those who watch: events with fields, log lines, drawings.
+//! The output of a program to observers: events with fields, log lines, drawings.
 
 use crate::robot_support::{World, compile};
 use starl_core::event::{Level, MarkShape};

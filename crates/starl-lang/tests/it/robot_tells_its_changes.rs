@@ -19,7 +19,7 @@ on Add(from, number)
 ";
 
 #[test]
-fn it_stays_while_nothing_happens_and_changes_with_each_thing_that_does() {
+fn it_changes_exactly_with_each_change_of_the_state() {
     let mut world = World::of(&compile(CHANGES), 2);
     let versions = |world: &World| [0, 1].map(|robot| world.program(robot).version());
     let started = versions(&world);

@@ -1,4 +1,4 @@
-//! Barrier in programs: robots go on together.
+//! Barrier in programs: robots continue together.
 
 use crate::robot_support::{World, compile};
 use starl_lang::machine::Value;
@@ -45,7 +45,7 @@ fn laps_begin_together() {
 }
 
 #[test]
-fn who_waits_for_a_robot_that_is_down_can_tell() {
+fn a_robot_knows_that_it_waits_for_a_crashed_robot() {
     let mut world = World::of(&compile(LAPS), 3);
     world.steps(50);
     assert_eq!(world.get(0, "warned"), Value::Bool(false));

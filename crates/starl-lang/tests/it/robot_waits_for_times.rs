@@ -34,7 +34,7 @@ wait()
     let first = firings(&world, "count")[0];
     let waited = firings(&world, "wait");
     let waited: Vec<u64> = waited.into_iter().map(|at| at - first).collect();
-    // It is false at the activation 3, so the time begins anew at 4; and when it has fired.
+    // The guard is false at activation 3, so the time starts again at 4; it also restarts after each firing.
     assert_eq!(waited, [7, 10, 13]);
 }
 

@@ -72,7 +72,7 @@ fn deep(count: usize) -> Vec<String> {
 }
 
 #[test]
-fn what_nests_too_deeply_is_an_error_that_says_so() {
+fn too_deep_nesting_is_an_error() {
     for text in deep(3000) {
         let parse = parsed(&text);
         let line: String = text.chars().skip(11).take(60).collect();
@@ -87,7 +87,7 @@ fn what_nests_too_deeply_is_an_error_that_says_so() {
 }
 
 #[test]
-fn what_people_write_is_not_too_deep() {
+fn ordinary_programs_are_not_too_deep() {
     for text in deep(15) {
         let too_deep = parsed(&text)
             .diagnostics()
@@ -123,7 +123,7 @@ fn many_problems_on_a_line_are_read_in_no_time() {
 }
 
 #[test]
-fn what_is_too_long_is_not_read() {
+fn too_long_texts_are_not_read() {
     let text = "x".repeat(MAX_LENGTH + 1);
     let parse = parse(&text);
     assert_eq!(parse.diagnostics()[0].code, Code::TooLong);

@@ -1,9 +1,8 @@
-//! What a person is told: each case of `tests/diagnostics/syntax_*.md` is a source and the message it gets.
+//! Messages about syntax errors: each case of `tests/diagnostics/syntax_*.md` is a source and the message it gets.
 //!
-//! A case is a heading, the source in a block of `starl`, and the message in a block of `text`. Where the
-//! messages suggest mends, the source with all of them done follows in another block of `starl`, and the
-//! page says whether that is right. `BLESS=1 cargo test -p starl-lang --test
-//! syntax_diagnostics` writes the messages anew.
+//! A case is a heading, the source in a block of `starl`, and the message in a block of `text`. Where the messages
+//! suggest fixes, the fixed source follows in another block of `starl`, and the page says whether it is correct.
+//! `BLESS=1 cargo test -p starl-lang --test syntax_diagnostics` rewrites the messages.
 #![allow(clippy::disallowed_methods, reason = "a test reads its cases")]
 
 use crate::common::{is_wrong, parsed};
@@ -57,23 +56,20 @@ fn read(page: &str) -> (String, Vec<Case>) {
     (introduction, parts.map(case).collect())
 }
 
-/// The source after all mends that do not overlap.
-fn mended(source: &str, diagnostics: &[Diagnostic]) -> String {
+/// The source after all fixes that do not overlap.
+fn fixed(source: &str, diagnostics: &[Diagnostic]) -> String {
     let mut text = source.to_string();
     let mut end = usize::MAX;
-    let mut mends: Vec<_> = diagnostics
+    let mut fixes: Vec<_> = diagnostics
         .iter()
-        .filter_map(|diagnostic| diagnostic.mend.as_ref())
+        .filter_map(|diagnostic| diagnostic.fix.as_ref())
         .collect();
-    mends.sort_by_key(|mend| mend.edits.first().map(|edit| edit.span));
-    for mend in mends.iter().rev() {
-        let last = mend.edits.last().map_or(0, |edit| edit.span.end as usize);
+    fixes.sort_by_key(|fix| fix.edits.first().map(|edit| edit.span));
+    for fix in fixes.iter().rev() {
+        let last = fix.edits.last().map_or(0, |edit| edit.span.end as usize);
         if last <= end {
-            text = mend.apply(&text);
-            end = mend
-                .edits
-                .first()
-                .map_or(0, |edit| edit.span.start as usize);
+            text = fix.apply(&text);
+            end = fix.edits.first().map_or(0, |edit| edit.span.start as usize);
         }
     }
     text
@@ -101,13 +97,13 @@ fn written(introduction: &str, cases: &[Case]) -> String {
             "\n## {heading}\n{prose}```starl\n{source}```\n\n```text\n{}\n```\n",
             message.join("\n")
         );
-        let after = mended(source, diagnostics);
+        let after = fixed(source, diagnostics);
         if after != *source {
             let wrong = is_wrong(&parsed(&after));
             let label = if wrong {
-                "With the mends done, something is still wrong"
+                "With the fixes done, something is still wrong"
             } else {
-                "Mended"
+                "Fixed"
             };
             page += &format!("\n{label}:\n\n```starl\n{after}```\n");
         }
@@ -116,7 +112,7 @@ fn written(introduction: &str, cases: &[Case]) -> String {
 }
 
 #[test]
-fn every_case_says_what_its_page_says() {
+fn every_case_has_the_messages_of_its_page() {
     let mut differing = Vec::new();
     for path in pages() {
         let page = fs::read_to_string(&path).expect("a case that can be read");
@@ -155,7 +151,7 @@ fn every_code_has_a_case() {
             count += 1;
         }
     }
-    // A file of 16 MiB is no example for a page.
+    // A file of 16 MiB is too long for a page.
     let of_syntax = |code: &&Code| code.number()[1..].starts_with("01") && **code != Code::TooLong;
     let missing: Vec<&Code> = Code::ALL
         .iter()

@@ -4,7 +4,7 @@ use starl_lang::diagnostic::{Code, Colour, LineIndex, Position, closest, json, r
 use starl_lang::syntax::parse;
 
 #[test]
-fn json_has_places_and_mends() {
+fn json_has_places_and_fixes() {
     let text = "program P\n\nrun()\n    pre é = 1\n    eff f()\n";
     let parsed = json("p.starl", text, parse(text).diagnostics());
     let value: serde_json::Value = serde_json::from_str(&parsed).unwrap();
@@ -18,7 +18,7 @@ fn json_has_places_and_mends() {
     );
     assert_eq!(problem["end"]["column"], 12);
     assert_eq!(problem["expected"], serde_json::Value::Null);
-    let edit = &problem["mend"]["edits"][0];
+    let edit = &problem["fix"]["edits"][0];
     assert_eq!(
         (&edit["text"], &edit["start"]["offset"]),
         (&"==".into(), &28.into())
@@ -49,7 +49,7 @@ fn colours_are_escape_sequences_around_the_same_text() {
 }
 
 #[test]
-fn what_would_steer_a_terminal_is_not_shown() {
+fn terminal_escapes_are_not_shown() {
     let text = "program P\n\nx: \u{1b}[2J\u{9b}\u{202e}Int = \u{7}\n";
     let shown = render("p.starl", text, parse(text).diagnostics(), Colour::Off);
     assert!(

@@ -1,9 +1,9 @@
-//! The text of the tree is the source, whatever that is, and reading it never fails.
+//! The text of the tree is the source, for every source, and parsing never fails.
 
 use crate::common::{generator, mutation, parsed, written};
 
 #[test]
-fn what_is_written_down_is_read_without_a_complaint() {
+fn written_programs_are_parsed_without_errors() {
     for (name, text) in written() {
         assert_eq!(parsed(text).diagnostics(), [], "{name}");
     }
@@ -18,7 +18,7 @@ fn random_programs_are_read_without_a_complaint() {
 }
 
 #[test]
-fn what_is_nearly_a_program_is_read_whole() {
+fn nearly_correct_programs_are_parsed_completely() {
     for (_, text) in written() {
         for seed in 0..1000 {
             parsed(&mutation::mutated(text, seed));

@@ -205,7 +205,7 @@ fn an_action_has_its_guard_and_effect() {
 }
 
 #[test]
-fn an_effect_may_go_on_below_its_line() {
+fn an_effect_may_continue_below_its_line() {
     let items = items("program P\n\nrun()\n    eff a = 1; b = 2\n        c = 3\n");
     let Some(Item::Action(action)) = items.get(1) else {
         panic!()
@@ -266,7 +266,7 @@ fn shared_variables_and_types_have_their_parts() {
 }
 
 #[test]
-fn comments_with_three_slashes_document_what_is_below() {
+fn comments_with_three_slashes_document_the_declaration_below() {
     let text = "/// The program.\nprogram P\n\n/// not this\n\n// nor this\n/// One\n///  two\nx: Int\nrecord R {\n    /// a field\n    x: Int,\n}\n";
     let items = items(text);
     assert_eq!(items[0].documentation(), "The program.");
@@ -278,7 +278,7 @@ fn comments_with_three_slashes_document_what_is_below() {
 }
 
 #[test]
-fn spans_leave_out_what_is_around() {
+fn spans_exclude_surrounding_trivia() {
     let text = "program P\n\n/// Documented.\nrun()\n    eff f() // done\n\n// after\nx: Int\n";
     let parse = parse(text);
     let action = parse.tree().items().nth(1).unwrap();
@@ -286,7 +286,7 @@ fn spans_leave_out_what_is_around() {
 }
 
 #[test]
-fn a_comment_belongs_to_the_block_whose_indentation_it_has() {
+fn a_comment_belongs_to_the_block_with_its_indentation() {
     let text = "program P\n\non M(f)\n    if a\n        g()\n        // inner\n    // outer\n// none\nx: Int\n";
     let parse = parse(text);
     let parents = |comment: &str| {

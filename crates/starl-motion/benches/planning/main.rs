@@ -1,8 +1,7 @@
-//! How fast planning is, and how long its paths: a point beside OMPL, and robots in their worlds.
+//! Measures the speed of planning and the length of its paths: a point compared with OMPL, and robots in their worlds.
 //!
-//! Every planner runs with many seeds. A run is repeated three times and the quickest counts, because
-//! on a busy machine that comes nearest to the processor time that the peer's figures are; medians are
-//! over the seeds.
+//! Every planner runs with many seeds. A run is repeated three times and the fastest counts, because on a busy machine
+//! it is closest to processor time, which the peer's figures use; medians are over the seeds.
 //!
 //! `cargo bench -p starl-motion --bench planning -- [--quick]`
 

@@ -73,7 +73,7 @@ pub fn race(seeds: u64) {
                 let target = model.body().reachable(b);
                 let mut request = request(target, &obstacles, planner, seed);
                 if planner == Planner::RrtStar {
-                    request.most_nodes = 1_000; // It uses all that it gets.
+                    request.most_nodes = 1_000; // It uses everything that it gets.
                 }
                 let (seconds, path) = quickest(|| plan(&*model, &start, &request, &[]));
                 times.push(seconds * 1e6);

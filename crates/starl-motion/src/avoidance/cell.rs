@@ -1,11 +1,10 @@
 //! A robot's cell: the velocities with which its stopping point stays on its own side of every border.
 //!
-//! Invariant: standing still is in the cell unless the robot is too near to a neighbour already, and
-//! then moving away from it is. Every border is a half-plane; the velocity nearest to a wish is found
-//! by the incremental method for convex programs in the plane (Seidel 1991, "Small-dimensional linear
-//! programming and convex hulls made easy"; used for the velocities of robots by van den Berg, Guy,
-//! Lin and Manocha 2011), in the order given instead of a random one: borders are few, and the answer
-//! must not depend on chance.
+//! Invariant: the zero velocity is in the cell unless the robot is already too near to a neighbour; then a velocity
+//! away from it is. Every border is a half-plane; the velocity nearest to the desired one is found by the incremental
+//! method for convex programs in the plane (Seidel 1991, "Small-dimensional linear programming and convex hulls made
+//! easy"; used for the velocities of robots by van den Berg, Guy, Lin and Manocha 2011), in the order given instead of
+//! a random one: borders are few, and the answer must not depend on chance.
 
 use super::plane::{larger, smaller};
 use smallvec::SmallVec;
@@ -65,9 +64,9 @@ impl Cell {
         self.borders.is_empty()
     }
 
-    /// The velocity nearest to `wish` that all borders allow. Where the robot is too near to satisfy
-    /// all of them it need not move away from obstacles; where that is not enough either, it moves away
-    /// from whatever is too near as far as the others allow.
+    /// The velocity nearest to `wish` that all borders allow. If the robot is too near to satisfy all of them, it does
+    /// not have to move away from obstacles; if that is not enough, it moves away from bodies that are too near as far
+    /// as the other borders allow.
     pub fn velocity(&self, wish: Point) -> Point {
         let found = self.solve(wish, Floor::None);
         if let Some(found) = found.or_else(|| self.solve(wish, Floor::Obstacles)) {
@@ -125,9 +124,8 @@ impl Cell {
         Some(normal * speed + along * at)
     }
 
-    /// How fast the robot may go in a direction of length one, metres per second; not negative,
-    /// infinite if nothing is that way. Borders that it meets at an angle whose sine is `grazing` or
-    /// less do not count.
+    /// The greatest speed of the robot in a direction of length one, metres per second; not negative, infinite if the
+    /// direction is free. Borders that it meets at an angle whose sine is `grazing` or less do not count.
     pub fn speed(&self, direction: Point, grazing: f64) -> f64 {
         let mut least = f64::INFINITY;
         for border in &self.borders {

@@ -1,4 +1,4 @@
-//! Making way at a waypoint that several robots want.
+//! Making way at a waypoint that several robots head for.
 //!
 //! If a neighbour that is nearer occupies a robot's target, the robot waits in front of it, farther
 //! out if more neighbours are nearer. So the nearest one has room to get there, and the next one has

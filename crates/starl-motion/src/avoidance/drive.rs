@@ -1,9 +1,7 @@
-//! Robots that cannot move sideways: how fast they may go where they are heading, and what point makes
-//! them turn.
+//! Robots that cannot move sideways: their greatest speed along their heading, and the point that makes them turn.
 //!
-//! A robot on wheels goes along its heading until it has turned, whatever direction is best, so its
-//! speed must be safe along its heading too. A car moreover swings to a side while it brakes, and
-//! chooses itself between forwards and backwards.
+//! A robot on wheels moves along its heading until it has turned, so its speed must be safe along its heading too. A
+//! car also swings to a side while it brakes, and its tracker chooses between forwards and backwards.
 
 use super::cell::Cell;
 use super::pace::Pace;
@@ -33,7 +31,7 @@ const CREEP: f64 = 0.05;
 const ON_AXIS: f64 = 0.98;
 
 /// A heading that meets a border at an angle of no more than this sine goes along it: robots on wheels
-/// are steered no more exactly. As soon as one has gone a millimetre or two too far, its cell turns it
+/// are not steered more exactly. As soon as one has gone a millimetre or two too far, its cell turns it
 /// away by as much.
 const GRAZING: f64 = 0.045;
 
@@ -64,9 +62,8 @@ impl Drive {
         }
     }
 
-    /// The greatest speed, metres per second, with which the robot stays in its cell when it is to go
-    /// with `velocity`. `near` says that the point it is to track is no farther away than
-    /// [`Drive::step`].
+    /// The greatest speed, metres per second, with which the robot stays in its cell if its desired velocity is
+    /// `velocity`. `near` means that the point to track is at most [`Drive::step`] away.
     pub fn speed_limit(
         self,
         body: &Body,
@@ -116,10 +113,9 @@ fn slowest(cell: &Cell, directions: &[Point], grazing: f64) -> f64 {
     speeds.fold(f64::INFINITY, smaller)
 }
 
-/// Where a car may go before the next estimate. It goes on along its course whatever it is told, or
-/// swings off it to either side while it brakes. From a standstill its tracker chooses forwards or
-/// backwards, and its centre, which is ahead of the axle that does not steer, slips to the side that
-/// it steers to.
+/// Where a car may go before the next estimate. It continues along its course whatever its command is, or swings off it
+/// to either side while it brakes. From a standstill its tracker chooses forwards or backwards, and its centre, which
+/// is ahead of the axle that does not steer, slips to the side that it steers to.
 fn car_directions(
     body: &Body,
     pace: &Pace,

@@ -71,8 +71,7 @@ impl Avoidance {
         }
     }
 
-    /// Distance between centres, metres, within which neighbours must be handed to
-    /// [`Avoidance::guide`].
+    /// Distance between centres, metres, within which neighbours must be passed to [`Avoidance::guide`].
     pub fn range(&self, body: &Body, limits: &Limits) -> f64 {
         let room = Pace::new(limits, self.period).room_needed + self.options.margin;
         // A neighbour that comes as fast is known a period late.
@@ -82,11 +81,11 @@ impl Avoidance {
         body.radius + self.options.largest_radius + larger(braking, passing)
     }
 
-    /// The goal to track until the next estimate: a point to head for and a limit of speed with which
-    /// the robot stays in its own cell. Where no neighbour matters this is `goal` itself.
+    /// The goal to track until the next estimate: a point to head for and a limit of speed with which the robot stays
+    /// in its own cell. If no neighbour matters this is `goal` itself.
     ///
-    /// A robot that flies and is still on the ground is to stay there while the height of the goal
-    /// returned is below its lowest height of travel: someone is above it.
+    /// A flying robot that is still on the ground must stay there while the height of the returned goal is below its
+    /// lowest height of travel: another robot is above it.
     pub fn guide(
         &mut self,
         model: &dyn Model,

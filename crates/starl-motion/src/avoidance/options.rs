@@ -10,9 +10,9 @@ pub struct Options {
     /// Room that each robot keeps on its side of the border between two bodies, metres; default
     /// 0.03. Two bodies stay apart as long as the error of each estimated gap is below twice this.
     pub margin: f64,
-    /// Longest time between two position estimates, seconds; default 0.05. Where estimates come
-    /// less often than this, the longest time between two of them counts, and is forgotten slowly.
-    /// Longer gaps than any before come as a surprise: where they may be, name them here.
+    /// Longest time between two position estimates, seconds; default 0.05. If estimates are less frequent, the longest
+    /// time between two of them is used, and decays slowly. A longer gap than any before cannot be foreseen: if such
+    /// gaps may occur, set the longest one here.
     pub period: f64,
     /// Radius of the largest robot that may be met, metres; default 0.5. It only sets how far away
     /// neighbours are asked for.

@@ -1,11 +1,10 @@
 //! Passing a neighbour that is in the way.
 //!
-//! The velocity nearest to the wish slides along the borders of the cell, but late, and barely if a
-//! neighbour is straight ahead. So a robot that is about to run into a neighbour heads for the tangent
-//! to it, on the right, or on the left if that is much shorter or the right is taken. Two robots that
-//! meet head-on both keep to the right, so they pass; it is a rule of the road, not needed for
-//! safety. A neighbour that stands where the robot wants to go cannot be passed: there the robot
-//! waits, and yields in the end.
+//! The velocity nearest to the desired one slides along the borders of the cell, but late, and barely if a neighbour is
+//! straight ahead. So a robot on a collision course with a neighbour heads for the tangent to it, on the right, or on
+//! the left if that is much shorter or the right is blocked. Two robots that meet head-on both keep to the right, so
+//! they pass; it is a rule of the road, not needed for safety. A neighbour at the robot's destination cannot be passed:
+//! the robot waits, and finally yields.
 
 use super::cell::Cell;
 use super::plane::{smaller, turned};
@@ -31,7 +30,7 @@ pub(super) struct InTheWay {
     room: f64,
 }
 
-/// The velocity to pass with, in place of `velocity`, which is the one nearest to the wish.
+/// The velocity for passing, in place of `velocity`, the one nearest to the desired velocity.
 pub(super) fn velocity(cell: &Cell, neighbour: &InTheWay, wish: Point, velocity: Point) -> Point {
     let InTheWay { offset, room } = *neighbour;
     let (speed, distance) = (wish.planar_length(), offset.planar_length());
@@ -53,8 +52,7 @@ pub(super) fn velocity(cell: &Cell, neighbour: &InTheWay, wish: Point, velocity:
     velocity
 }
 
-/// The neighbour soonest run into on the straight way to the destination, when the bodies are to keep
-/// `gap` metres apart.
+/// The first neighbour on the straight way to the destination, if bodies keep `gap` metres apart.
 pub(super) fn in_the_way(
     body: &Body,
     gap: f64,

@@ -67,8 +67,7 @@ fn on_segment(p: Point, start: Point, way: Point) -> Point {
     }
 }
 
-/// Where a function that is convex is least on the segment from `start` to `start + way`, nearly, and
-/// what it is there.
+/// The approximate minimum of a convex function on the segment from `start` to `start + way`: its position and value.
 pub(super) fn least_on_segment(
     start: Point,
     way: Point,

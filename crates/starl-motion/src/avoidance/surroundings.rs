@@ -1,10 +1,10 @@
 //! The borders that neighbours and obstacles put around a robot.
 //!
-//! The border between two robots splits the gap between their stopping segments: from where a robot is
-//! to where it stops if it brakes now. Both robots judge the same two segments, so both find the same
-//! line between them, and as long as each keeps its segment behind that line they stay apart. It is
-//! the gap between the bodies that is split, so robots of unequal size get equal room. An obstacle's
-//! border lies at the obstacle: all the room before it is the robot's own.
+//! The border between two robots splits the gap between their stopping segments: from a robot's position to where it
+//! stops if it brakes now. Both robots use the same two segments, so both find the same line between them, and as long
+//! as each keeps its segment behind that line they stay apart. It is the gap between the bodies that is split, so
+//! robots of unequal size get equal room. An obstacle's border lies at the obstacle: all the room before it is the
+//! robot's own.
 
 use super::cell::{Border, Cell};
 use super::drive::Drive;
@@ -44,7 +44,7 @@ pub(super) struct Surroundings<'a> {
     pub margin: f64,
     /// See [`crate::Model::braking_way`].
     pub braking_way: Point,
-    /// How old what is known of neighbours may be, seconds.
+    /// The greatest age of the knowledge of neighbours, seconds.
     pub period: f64,
 }
 

@@ -44,7 +44,7 @@ pub(super) struct Scene<'a> {
     pub estimate: &'a Estimate,
     pub target: Point,
     pub cell: &'a Cell,
-    /// Whether something keeps it from going to its target as it would like to.
+    /// Whether avoidance changes its velocity towards the target.
     pub hindered: bool,
 }
 
@@ -122,7 +122,7 @@ impl Yielding {
         self.stuck = 0.0;
     }
 
-    /// Takes note of the progress made and starts a detour when patience has run out.
+    /// Records the progress made and starts a detour when patience has run out.
     pub fn observe(&mut self, options: &Options, scene: &Scene, elapsed: f64, random: &mut Random) {
         if self.detour.is_some() {
             return;

@@ -22,7 +22,7 @@ const BISECTIONS: usize = 40;
 pub struct Leg {
     pub from: Point,
     pub to: Point,
-    /// The body stops here; 1 if it goes on to the end.
+    /// The fraction of the motion at which the body stops; 1 if it completes the motion.
     pub until: f64,
     pub radius: f64,
     pub height: f64,
@@ -50,8 +50,8 @@ impl Leg {
     }
 }
 
-/// When two bodies touch first. Bodies that overlap already may part: they touch only where they
-/// come nearer to each other.
+/// The time of the first contact of two bodies. Bodies that already overlap may separate: they touch only if they
+/// approach each other.
 #[inline]
 pub fn of_bodies(a: &Leg, b: &Leg) -> Option<f64> {
     let (first, second) = (a.until.min(b.until), a.until.max(b.until));
@@ -92,8 +92,8 @@ fn while_both_move(a: &Leg, b: &Leg, start: f64, end: f64) -> Option<f64> {
     Some(start + before(enter, motion) * (end - start))
 }
 
-/// When a body touches an obstacle first. One that is inside already may leave: it touches only where it
-/// gets deeper.
+/// The time of a body's first contact with an obstacle. A body that is already inside may leave: it touches only if it
+/// moves deeper.
 #[inline]
 pub fn of_obstacle(leg: &Leg, obstacle: &Obstacle) -> Option<f64> {
     let gap = obstacle.body_gap(leg.from, leg.radius, leg.height);

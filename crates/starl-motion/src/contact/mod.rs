@@ -1,10 +1,9 @@
-//! Which motions bring bodies into contact within a step, and where those bodies stop.
+//! Finds the contacts of bodies within a step, and the positions where those bodies stop.
 //!
-//! Bodies move along straight lines from where they are to where they are predicted. One that touches
-//! another, or an obstacle, stays where it does so for the rest of the step, and may so stop others
-//! that counted on its going on. Contacts are settled in the order of their times, as in a
-//! discrete-event simulation of hard spheres (Alder and Wainwright 1959), so that no body is stopped by
-//! one that had stopped elsewhere before.
+//! Bodies move along straight lines to their predicted positions. A body that touches another, or an obstacle, stays
+//! there for the rest of the step, and may stop others behind it. Contacts are settled in the order of their times, as
+//! in a discrete-event simulation of hard spheres (Alder and Wainwright 1959), so that no body is stopped by one that
+//! had stopped elsewhere before.
 
 mod grid;
 mod impact;

@@ -54,7 +54,7 @@ impl Create {
     /// A Create with these parameters.
     ///
     /// # Errors
-    /// Where a parameter is out of its range or exceeds what the wheels can do.
+    /// If a parameter is out of its range or exceeds what the wheels can do.
     pub fn new(parameters: CreateParameters) -> Result<Create, ParameterError> {
         parameters.check_ranges()?;
         ordered(

@@ -45,7 +45,7 @@ impl Differential {
     /// A robot with these parameters.
     ///
     /// # Errors
-    /// Where a parameter is out of its range or exceeds what the wheels can do.
+    /// If a parameter is out of its range or exceeds what the wheels can do.
     pub fn new(parameters: DifferentialParameters) -> Result<Differential, ParameterError> {
         parameters.check_ranges()?;
         let DifferentialParameters {

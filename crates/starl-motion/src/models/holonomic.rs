@@ -42,7 +42,7 @@ impl Holonomic {
     /// A robot with these parameters.
     ///
     /// # Errors
-    /// Where a parameter is out of its range or the cruise speed exceeds the greatest speed.
+    /// If a parameter is out of its range or the cruise speed exceeds the greatest speed.
     pub fn new(parameters: HolonomicParameters) -> Result<Holonomic, ParameterError> {
         parameters.check_ranges()?;
         ordered(

@@ -92,7 +92,7 @@ pub fn by_name(name: &str) -> Option<Arc<dyn Model>> {
 /// The model of this name with some of its parameters set, by name.
 ///
 /// # Errors
-/// Where there is no such model or parameter, or a value does not do.
+/// If there is no such model or parameter, or a value does not do.
 pub fn with_parameters(
     name: &str,
     parameters: &[(String, f64)],

@@ -54,7 +54,7 @@ pub fn first_met<const D: usize>(
     meets: impl Fn(&Grown<D>) -> Option<(f64, f64)>,
 ) -> Option<f64> {
     let mut at = enter;
-    // From ball to ball: each is left for good, so each is come to once.
+    // From ball to ball: it never returns to a ball that it has left.
     loop {
         let inside = |dent: &&Dent<D>| {
             let (from, to) = dent.ball(ray);

@@ -1,11 +1,10 @@
 //! Going to a place as a robot of a given model does: tracked in closed loop, simulated step by step.
 //!
-//! This is what a tree of the thesis is grown by. A robot that follows a path goes on to the next
-//! waypoint without stopping, from [`PASS`] metres if that way is free, so from there the straight way
-//! on must be clear; it must be clear from the waypoint itself, too, which is what is seen of a path
-//! from outside. Since any waypoint may be the last the robot is simulated until it is [`NEAR`].
-//! Between two estimates the body moves along a short arc; its chord is what is tested, exactly, and the
-//! margin of the grown obstacles covers the height of the arc.
+//! This is what a tree of the thesis is grown by. A robot that follows a path continues to the next waypoint without
+//! stopping, from [`PASS`] metres if that way is free, so from there the straight way on must be clear; it must be
+//! clear from the waypoint itself, too, which is what is seen of a path from outside. Since any waypoint may be the
+//! last the robot is simulated until it is [`NEAR`]. Between two estimates the body moves along a short arc; its chord
+//! is what is tested, exactly, and the margin of the grown obstacles covers the height of the arc.
 
 use super::free_space::FreeSpace;
 use super::grow::Mover;
@@ -17,7 +16,7 @@ use alloc::vec::Vec;
 use starl_core::motion::Estimate;
 use starl_core::{Duration, Time, math};
 
-/// How near to a waypoint the robot goes on to the next if that way is free, metres.
+/// How near to a waypoint the robot continues to the next if that way is free, metres.
 const PASS: f64 = 0.15;
 
 /// How near to the last waypoint the robot comes, metres.
@@ -50,8 +49,8 @@ impl<const D: usize> Driving<'_, D> {
         (seconds / PERIOD.seconds()) as u32
     }
 
-    /// Drives to a place; the state from which the robot would go on to another. `clear` is asked about
-    /// every step from one place to the next.
+    /// Drives to a place; the state from which the robot would continue to another. `clear` is asked about every step
+    /// from one place to the next.
     fn drive(
         &self,
         from: &State,

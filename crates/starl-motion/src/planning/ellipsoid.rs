@@ -3,8 +3,8 @@
 use super::vector::{Vector, between, difference, distance, dot};
 use starl_core::{Random, math};
 
-/// All places whose distances to two foci sum to at most a given length: an ellipse in the plane, an
-/// ellipsoid of revolution in space (Gammell, Srinivasa and Barfoot 2014).
+/// All points whose distances to two foci sum to at most a given length: an ellipse in the plane, an ellipsoid of
+/// revolution in space (Gammell, Srinivasa and Barfoot 2014).
 #[derive(Clone, Copy, Debug)]
 pub struct Ellipsoid<const D: usize> {
     center: Vector<D>,

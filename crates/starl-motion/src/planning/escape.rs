@@ -27,9 +27,8 @@ pub fn nearest_free<const D: usize>(
     nearest(space, point, within, &first_gap)
 }
 
-/// The nearest free point that can be reached from `point` by moving straight away from what it is
-/// too near to, without coming nearer to any of that and without touching anything else; at most
-/// `within` metres away.
+/// The nearest free point that can be reached from `point` by moving straight away from the obstacles that are too
+/// near, without approaching any of them and without touching another; at most `within` metres away.
 pub fn escape<const D: usize>(
     space: &FreeSpace<D>,
     point: &Vector<D>,
@@ -130,7 +129,7 @@ fn first_gap<const D: usize>(
 
 /// Where one has left all that one was in, if that is possible by only ever moving away from it.
 ///
-/// The distance to a convex thing is a convex function of the way gone along a line: if it does not
+/// The distance to a convex shape is a convex function of the distance along a line: if it does not
 /// shrink at first it never does.
 fn retreat<const D: usize>(
     space: &FreeSpace<D>,

@@ -84,7 +84,7 @@ impl<const D: usize> FreeSpace<D> {
         })
     }
 
-    /// Whether the segment keeps clear of all obstacles, in the box or not.
+    /// Whether the segment is clear of all obstacles, inside or outside the box.
     #[inline]
     pub fn is_clear(&self, a: &Vector<D>, b: &Vector<D>) -> bool {
         let ray = Ray::new(a, b);
@@ -175,5 +175,5 @@ impl<const D: usize> Space<D> for FreeSpace<D> {
 /// Corners drawn before settling for a uniform sample.
 const CORNERS_TRIED: u32 = 8;
 
-/// The part of the way to an obstacle that is gone, so that its end is free whatever the rounding.
+/// The part of the way to an obstacle that a robot drives, so that its end is free whatever the rounding.
 const SHORT_OF: f64 = 1.0 - 1e-6;

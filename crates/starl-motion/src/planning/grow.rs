@@ -7,7 +7,7 @@ use crate::Neighbour;
 use starl_core::geometry::{HeightSpan, Obstacle, Point, Shape};
 use starl_core::motion::{Body, Workspace};
 
-/// A robot's body and how far it should stay away from things beyond its own size.
+/// A robot's body and the margin between it and obstacles.
 #[derive(Clone, Copy, Debug)]
 pub struct Mover {
     /// The body.
@@ -25,8 +25,8 @@ pub struct Mover {
 pub enum Yields {
     /// Near the end only.
     NearEnds,
-    /// All along what leaves the end less than the least margin: the robot is in a passage too narrow for
-    /// it, or is to go to one.
+    /// Along everything that leaves the end less than the least margin: the robot is in, or drives to, a passage too
+    /// narrow for it.
     Along,
 }
 
@@ -52,7 +52,7 @@ impl Mover {
             return Some((f64::NEG_INFINITY, f64::INFINITY));
         };
         match self.body.workspace {
-            // Standing on top of a thing is allowed, on a thing of no thickness is not.
+            // Standing on top of an obstacle is allowed, unless its thickness is 0.
             Workspace::Ground => {
                 let met = self.body.height >= span.low && (0.0 < span.high || 0.0 <= span.low);
                 met.then_some((f64::NEG_INFINITY, f64::INFINITY))
@@ -150,7 +150,7 @@ impl Mover {
         list
     }
 
-    /// All that is in the way and usable.
+    /// Everything that is in the way and usable.
     fn for_each(
         &self,
         obstacles: &[Obstacle],

@@ -162,7 +162,7 @@ impl<const D: usize> GrownList<D> {
         }
     }
 
-    /// Whether the segment keeps clear of all of them; looks at every one.
+    /// Whether the segment is clear of all of them; checks every one.
     pub fn is_clear(&self, a: &Vector<D>, b: &Vector<D>) -> bool {
         let ray = Ray::new(a, b);
         (0u32..).zip(&self.list).all(|(number, grown)| {

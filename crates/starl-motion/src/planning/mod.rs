@@ -1,12 +1,12 @@
-//! Finding a way: from where a robot is to where it should be, clear of everything unsafe.
+//! Path planning: from a robot's position to its target, clear of the unsafe set.
 //!
 //! Hosts call [`plan`]. It grows the obstacles by the robot's body and checks whether the straight
 //! line is free, which is the most frequent case. Otherwise one of the planners searches: [`rrt`],
 //! [`rrt_connect`] or [`rrt_star`], in the plane for robots on the floor and in space for those in the
 //! air. Paths are then shortened ([`shorten`]).
 //!
-//! The planners know nothing of robots: they search a [`space::Space`]. Everything is exact, no path
-//! is tested at sample points, and the same request gives the same path on every machine.
+//! The planners do not depend on robots: they search a [`space::Space`]. Collision tests are exact, not at sample
+//! points, and the same request gives the same path on every machine.
 //!
 //! ```
 //! use starl_core::Random;
@@ -51,12 +51,10 @@ use task::Task;
 /// The options of planning that a host may change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// How far paths stay away from things beyond the body's own radius, as a part of that radius; see
-    /// [`plan`] for where it is less.
+    /// The margin between the body and obstacles, as a fraction of the body's radius; see [`plan`] for exceptions.
     pub margin_radii: f64,
-    /// The least that is left of it where there is no way otherwise, metres: more than positions and
-    /// tracking err by, or the robot would touch what it passes. Where it is greater than the whole
-    /// margin, that is the least.
+    /// The smallest margin if there is no path otherwise, metres. It must exceed the errors of positions and tracking,
+    /// or the robot may touch obstacles. If it exceeds the whole margin, the whole margin is used.
     pub least_margin: f64,
     /// How far a robot that is too near to something may go to get clear of it, in radii.
     pub escape_radii: f64,
@@ -86,22 +84,20 @@ impl Default for Options {
     }
 }
 
-/// Waypoints from the estimated pose to where the request is fulfilled; none if the planner gave up.
+/// Waypoints from the estimated pose to the target; none if the planner gave up.
 ///
-/// - The last waypoint is the target if the body can be there. If not, it is the place nearest to it
-///   where the body has the margin, or half of the room that the request's vicinity leaves; there is
-///   no path if that is none.
-/// - The body keeps out of the unsafe set all along the way, `margin_radii` further off than it must.
-///   Where there is no way with such a margin, a half, a quarter and an eighth of it are tried, each with
-///   half of the nodes that are left, but none below `least_margin`: through a passage narrower than
-///   that there is no path.
+/// - The last waypoint is the target if the body can be there. If not, it is the nearest place where the body has the
+///   margin, or half of the room that the request's vicinity leaves; if there is no such room, there is no path.
+/// - The body stays out of the unsafe set along the whole path, with the margin of `margin_radii`. If there is no such
+///   path, a half, a quarter and an eighth of the margin are tried, each with half of the remaining nodes, but never
+///   below `least_margin`: a narrower passage has no path.
 /// - If the start or end is within the margin of an obstacle, a smaller margin applies around that
 ///   end, within twice the missing distance. It is half of the gap, or `least_margin` if that is
 ///   more, or nine tenths of the gap if that is less than `least_margin`.
 /// - If the body touches something at the start, the first waypoint is the nearest place with the
 ///   margin that can be reached by moving away from it. A robot whose centre is inside an obstacle
 ///   gets no path.
-/// - A robot in the air that is below its lowest height of travel is taken to have risen there.
+/// - A robot in the air below its lowest height of travel is assumed to have risen to it.
 pub fn plan(
     model: &dyn Model,
     start: &Estimate,

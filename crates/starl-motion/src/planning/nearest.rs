@@ -6,7 +6,7 @@
 //! faster than any structure. (Bentley 1975, "Multidimensional binary search trees used for
 //! associative searching"; the buckets are ours.)
 //!
-//! Answers do not depend on anything but the points and the order they came in; of points at equal
+//! Answers depend only on the points and the order in which they were added; of points at equal
 //! distance any may be the answer, the same at every run.
 
 use super::vector::Vector;
@@ -114,8 +114,8 @@ impl<const D: usize> Nearest<D> {
         }
     }
 
-    /// Adds a point with finite coordinates; its number is how many there were before. One at the
-    /// very place of 32 others is numbered but never found: they stand for it.
+    /// Adds a point with finite coordinates; its number is the count of points before. A point at the same position as
+    /// 32 others is numbered but never found; the others are found instead.
     pub fn add(&mut self, point: &Vector<D>) {
         let number = self.count;
         self.count += 1;

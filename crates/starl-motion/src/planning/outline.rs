@@ -1,4 +1,4 @@
-//! Round outlines in the plane: all that is within a radius of a convex polygon, a wall or a point.
+//! Round outlines in the plane: everything that is within a radius of a convex polygon, a wall or a point.
 
 use super::ray::Ray;
 use starl_core::math;

@@ -1,7 +1,7 @@
 //! A segment against boxes: where it enters and leaves, by slabs (Kay and Kajiya 1986, "Ray tracing
 //! complex scenes").
 //!
-//! Fractions are of the segment's length. A segment of no length is a point, and one that runs along a
+//! Fractions are of the segment's length. A segment of length 0 is a point, and one that runs along a
 //! face touches the box.
 
 use super::vector::{Vector, difference};

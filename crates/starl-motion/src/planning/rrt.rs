@@ -1,10 +1,10 @@
-//! RRT: a tree grown from the start by trying to go to random places (LaValle 1998, "Rapidly-exploring
-//! random trees: a new tool for path planning"), in the form of the thesis, section 3.2.2.
+//! RRT: a tree grown from the start towards random places (LaValle 1998, "Rapidly-exploring random trees: a new tool
+//! for path planning"), in the form of the thesis, section 3.2.2.
 //!
-//! A random place is tried from the nearest node, by whatever way the robot itself would take there
-//! ([`Steering`]). If that touches something, the place halfway to the node is tried instead, until
-//! the rest is shorter than a threshold. After every new node the target is tried in the same manner.
-//! The search gives up when the tree has a given number of nodes.
+//! A random place is tried from the nearest node, on the path that the robot itself would drive ([`Steering`]). If that
+//! touches an obstacle, the place halfway to the node is tried instead, until the rest is shorter than a threshold.
+//! After every new node the target is tried in the same way. The search gives up when the tree has a given number of
+//! nodes.
 //!
 //! Where we differ: the target is not tried again from a node that it has been tried from, since the
 //! outcome would be the same; and it is tried from the new node, too, if that is not the one nearest
@@ -19,7 +19,7 @@ use starl_core::Random;
 
 /// How to get from one place to another.
 pub trait Steering<const D: usize> {
-    /// All that decides how the robot goes on from where it is.
+    /// The state from which the robot's further motion follows.
     type State;
 
     /// The state in which the robot arrives if, at the waypoint `from` in this state, it sets out for
@@ -143,7 +143,7 @@ impl<const D: usize, S: Steering<D>> Search<'_, D, S> {
     }
 }
 
-/// A point that goes straight to wherever the way is free.
+/// A point that moves along straight free segments.
 #[derive(Clone, Copy, Debug)]
 pub struct Straight<'a, T> {
     /// Where it moves.

@@ -7,7 +7,7 @@
 //!   way is free, so a tree grows by that in one go; only `longest_step` limits it.
 //! - A step slides along obstacles, as far as that leads nearer to the place: the direction is the
 //!   rest of the way less its part across the surface. A step that would have ended at a wall then
-//!   finds the wall's end. In boxes of side 100 among obstacles this saves all but a twentieth of the
+//!   finds the wall's end. In boxes of side 100 among obstacles this saves 95 % of the
 //!   steps.
 //! - The smaller tree grows first.
 

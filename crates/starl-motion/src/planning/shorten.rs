@@ -1,7 +1,7 @@
 //! Shortening a path without touching anything: corners are cut until the path is taut.
 //!
-//! First every corner that can be left out is (the farthest later corner in sight is gone to
-//! straight away). Then each remaining corner slides along the edge after it, and then along the edge
+//! First every corner that can be left out is (the farthest later corner in sight is tried
+//! first). Then each remaining corner slides along the edge after it, and then along the edge
 //! before it, as far as its neighbour still sees it; and where that gains something a corner becomes
 //! two, by a cut straight across it as far off as is free. By the triangle inequality none of that
 //! makes the path longer. Rounds are repeated until they gain little. Deterministic: no random

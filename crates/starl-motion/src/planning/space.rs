@@ -3,7 +3,7 @@
 use super::vector::Vector;
 use starl_core::Random;
 
-/// A region in which a point moves among things it must not touch. Planners see no more than this.
+/// A region in which a point moves among obstacles. Planners use only this interface.
 pub trait Space<const D: usize> {
     /// A point to grow towards, drawn so that every free place has its chance.
     fn sample(&self, random: &mut Random) -> Vector<D>;
@@ -28,8 +28,7 @@ pub trait Space<const D: usize> {
 pub struct Reach<const D: usize> {
     /// The part of the way that is free: one if all of it is, zero if its start is not.
     pub free: f64,
-    /// The unit vector across the surface of what is in the way; none if nothing is, or if one
-    /// cannot slide along it.
+    /// The unit normal of the blocking surface; none if the way is free, or if sliding along the surface is impossible.
     pub wall: Option<Vector<D>>,
 }
 

@@ -21,7 +21,7 @@ const ROUNDS: u32 = 8;
 /// search but the last may use half of the nodes that are left.
 const MARGINS: u32 = 4;
 
-/// A request and all that bears on it.
+/// A request with its context.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     pub options: &'a Options,
@@ -32,7 +32,7 @@ pub struct Task<'a> {
     pub robots: &'a [Neighbour],
     /// Where the robot starts from, at a height it can travel at.
     pub from: Point,
-    /// Where it should go, likewise.
+    /// Its goal, in the same form.
     pub target: Point,
 }
 
@@ -197,7 +197,7 @@ impl Task<'_> {
         Some(path)
     }
 
-    /// The nearest place with the margin straight away from all that an end is too near to; the end itself
+    /// The nearest place with the margin straight away from everything that an end is too near to; the end itself
     /// if it has the margin, or if there is no such way.
     fn out_of_dent<const D: usize>(&self, space: &FreeSpace<D>, end: &Vector<D>) -> Vector<D> {
         let mut is_near = false;

@@ -31,7 +31,7 @@ const SAME_TARGET: f64 = 0.005;
 /// The mean forgets so slowly, estimates.
 const MOST_SAMPLES: u32 = 20;
 
-/// Whether a robot estimated at `position` stands, or is to stop now, at its goal.
+/// Whether a robot estimated at `position` is at rest at its goal, or should stop there now.
 pub(super) fn at_rest(
     tracking: &mut Tracking,
     goal: &Goal,

@@ -49,7 +49,7 @@ const TOLERANCE: Tolerance = Tolerance {
 
 /// Points behind the car are approached backwards when they are nearer than so many turning radii.
 const BACKWARDS_WITHIN: f64 = 3.0;
-/// An approach goes on while the point is not deeper inside the turning circle than this, metres.
+/// An approach continues while the point is not deeper inside the turning circle than this, metres.
 const GIVE_UP_DEPTH: f64 = 0.05;
 /// A shunt ends when the point is this part of the turning radius outside of the circle.
 const SHUNT_MARGIN: f64 = 0.12;

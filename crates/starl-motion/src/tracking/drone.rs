@@ -25,7 +25,7 @@ pub(crate) struct Gains {
     pub drag: f64,
     /// Greatest tilt, radians.
     pub tilt: f64,
-    /// Seconds for which an acceleration goes on when the opposite tilt is asked for.
+    /// Seconds for which an acceleration continues after the opposite tilt is commanded.
     pub tilt_lag: f64,
     /// Metres per second squared.
     pub gravity: f64,
@@ -133,8 +133,8 @@ impl Gains {
         }
     }
 
-    /// The drone hovers by itself: the push is observed all the same, since wind that drives it off its path has it stopped
-    /// again and again to replan.
+    /// The drone hovers by itself. The push of the wind is observed nevertheless, because wind that drives the drone
+    /// off its path makes it stop and replan repeatedly.
     pub fn rest(&self, tracking: &mut Tracking, estimate: &Estimate) {
         let period = tracking.period(estimate);
         match estimate.pose.position.z < 0.5 * self.lowest {

@@ -21,10 +21,10 @@ pub struct Goal {
     /// The waypoint, metres. Ground robots leave the height out; a quadcopter on the floor stays
     /// there while the height is less than its lowest height of travel.
     pub target: Point,
-    /// The waypoint after that, metres: the robot may flow through `target` towards it. None where
-    /// the robot is to come to a stop at `target`.
+    /// The waypoint after that, metres: the robot may flow through `target` towards it. None if the robot must stop at
+    /// `target`.
     pub next: Option<Point>,
-    /// Greatest speed in the floor plane, metres per second; infinite if there is none to observe.
+    /// Greatest speed in the floor plane, metres per second; infinite if there is no limit.
     pub speed_limit: f64,
 }
 

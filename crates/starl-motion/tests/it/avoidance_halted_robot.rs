@@ -1,4 +1,4 @@
-//! Robots drive round a robot that stands still, such as a dead one, wherever it stands.
+//! Robots drive round a robot that does not move, such as a crashed one.
 
 use crate::avoidance_world::scenes::{AGILE, from_to, one_in_the_way};
 use crate::avoidance_world::{self, EXACT, Scene, World, runs};
@@ -15,7 +15,7 @@ fn a_halted_robot_is_driven_round() {
 }
 
 #[test]
-fn one_that_halts_on_the_way_is_driven_round() {
+fn a_robot_that_halts_on_the_way_is_passed() {
     for model in AGILE {
         for seed in 0..30 {
             let scene = avoidance_world::scenes::head_on(model);

@@ -14,7 +14,7 @@ fn two_that_meet_head_on_pass() {
 
 /// Robots on wheels have to turn round first, which takes them off the straight way.
 #[test]
-fn robots_that_need_not_turn_keep_to_the_right() {
+fn holonomic_robots_keep_to_the_right() {
     for model in ["drone", "holonomic"] {
         for (positioning, seed) in runs(20) {
             let mut world = World::new(&head_on(model), positioning, seed);

@@ -1,4 +1,4 @@
-//! Estimates that come late: at a slower rate than the options say, or not at all now and then.
+//! Late estimates: at a lower rate than in the options, or missing now and then.
 
 use crate::avoidance_world::scenes::{AGILE, circle, head_on};
 use crate::avoidance_world::{EXACT, Positioning, World, runs};

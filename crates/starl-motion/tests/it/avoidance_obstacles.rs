@@ -1,4 +1,4 @@
-//! No robot touches an obstacle, whatever its target: inertia and overshooting are reckoned with.
+//! No robot touches an obstacle, with any target: inertia and overshooting are taken into account.
 
 use crate::avoidance_world::scenes::{AGILE, at, from_to, place_for, radius, strewn};
 use crate::avoidance_world::{EXACT, Placed, Positioning, Scene, VICINITY, World};

@@ -191,7 +191,7 @@ fn nan_is_refused_and_never_spreads() {
 }
 
 #[test]
-fn what_is_in_the_way_stops_the_body_where_they_touch() {
+fn an_obstacle_stops_the_body_at_the_contact() {
     for model in every_model() {
         let mut random = Random::keyed(5, &[9]);
         for _ in 0..200 {
@@ -215,7 +215,7 @@ fn what_is_in_the_way_stops_the_body_where_they_touch() {
 }
 
 #[test]
-fn no_time_is_no_motion() {
+fn a_step_of_zero_length_does_not_move() {
     for model in every_model() {
         let mut random = Random::keyed(6, &[9]);
         for _ in 0..100 {

@@ -1,4 +1,4 @@
-//! The shorter the step, the nearer the integration is to the motion it stands for.
+//! The integration converges to the exact motion as the step gets shorter.
 
 use crate::conformance::{CALM, command_for, every_model_and_variants, place};
 use starl_core::{Command, Duration, Pose, Random};

@@ -1,4 +1,4 @@
-//! Waypoint tracking reaches where it is told to go, in time, and stays there.
+//! Waypoint tracking reaches its target in time, and stays there.
 
 use crate::conformance::{Positioning, Run, every_model, every_model_and_variants, place, start};
 use starl_core::{Duration, Point, Random};

@@ -1,4 +1,4 @@
-//! The iRobot Create's commands (thesis, table 4.1) do what they say, within what its wheels can do.
+//! The iRobot Create's commands (thesis, table 4.1) take effect, within the limits of its wheels.
 
 use crate::conformance::{CALM, Positioning, Run};
 use starl_core::math::{PI, TAU, radians};

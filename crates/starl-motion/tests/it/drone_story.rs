@@ -43,7 +43,7 @@ fn it_takes_off_before_it_travels() {
     assert!(run.distance(target) < 0.1);
 }
 
-/// How far a robot goes beyond the place where it is told, at its speed of travel, to go back.
+/// How far a robot goes past the place where, at its speed of travel, it receives the command to go back.
 fn overshoot(model: &dyn Model) -> f64 {
     let mut run = Run::new(model, ORIGIN, Positioning::EXACT, 1);
     let [there, back] = [10.0, -10.0].map(|x| model.body().reachable(Point::planar(x, 0.0)));
@@ -216,7 +216,7 @@ fn it_holds_its_place_and_its_waypoint_in_wind() {
 }
 
 #[test]
-fn wind_does_not_move_what_stands_on_the_ground() {
+fn wind_does_not_move_a_drone_on_the_ground() {
     let wind = Disturbance {
         wind: Point::planar(5.0, 5.0),
         ..CALM

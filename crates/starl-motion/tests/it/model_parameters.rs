@@ -59,7 +59,7 @@ fn parameters_take_effect() {
 }
 
 #[test]
-fn errors_name_what_is_wrong_and_what_would_do() {
+fn errors_name_the_problem_and_the_accepted_values() {
     let message = |result: Result<_, String>| result.map(|_| ()).unwrap_err();
     assert_eq!(
         message(with("submarine", &[])),

@@ -126,7 +126,7 @@ fn it_needs_neighbours_only_while_it_tracks_and_avoids() {
 }
 
 #[test]
-fn a_plan_request_does_not_change_what_it_does() {
+fn a_plan_request_does_not_change_the_motion() {
     let model = &*models::by_name("holonomic").unwrap();
     let mut pilot = Pilot::new(model, None);
     pilot.request(&MotionRequest::Track {

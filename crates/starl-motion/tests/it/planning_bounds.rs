@@ -57,7 +57,7 @@ fn walled(gap: f64) -> FreeSpace<2> {
 }
 
 #[test]
-fn paths_stay_in_the_box_though_outside_would_be_shorter() {
+fn paths_stay_in_the_box_even_if_a_path_outside_is_shorter() {
     let space = walled(1.0);
     for seed in 0..20 {
         for path in paths(&space, &[1.0, 9.0], &[9.0, 9.0], seed) {

@@ -55,7 +55,7 @@ fn tree_finds_what_a_list_does<const D: usize>() {
 }
 
 #[test]
-fn the_tree_of_boxes_finds_what_a_list_does() {
+fn the_tree_of_boxes_agrees_with_a_list() {
     tree_finds_what_a_list_does::<2>();
     tree_finds_what_a_list_does::<3>();
 }

@@ -1,4 +1,4 @@
-//! Where there is no path every planner ends, and its work is bounded by the nodes it may use.
+//! Without a path every planner ends, and its work is bounded by its number of nodes.
 
 use core::cell::Cell;
 use starl_core::Random;

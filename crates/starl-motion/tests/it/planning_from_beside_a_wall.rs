@@ -10,7 +10,7 @@ use starl_motion::planning::{self, Options};
 const SEEDS: u64 = 200;
 
 #[test]
-fn few_nodes_suffice_where_both_ends_are_beside_something() {
+fn few_nodes_suffice_for_ends_beside_a_wall() {
     for name in ["create", "drone"] {
         let model = model(name);
         let radius = model.body().radius;

@@ -1,4 +1,4 @@
-//! A grown obstacle is exactly what is within its radius, measured along segments.
+//! A grown obstacle is exactly the set of points within its radius, measured along segments.
 
 use starl_core::geometry::{ConvexPolygon, Obstacle};
 use starl_core::{Point, Random};
@@ -73,7 +73,7 @@ fn a_grown_shape_is_entered_and_left_where_the_distance_says() {
 }
 
 #[test]
-fn how_far_one_reaches_is_free_and_what_stops_one_lies_across() {
+fn the_reachable_part_is_free_and_ends_at_a_surface() {
     let mut random = Random::keyed(4, &[]);
     for (corners, radius, obstacle) in shapes() {
         let mut list = GrownList::<2>::new();

@@ -1,4 +1,4 @@
-//! Heights: what is overhead does not hinder a robot on the floor, what is low not one in the air.
+//! Heights: obstacles overhead do not block a robot on the floor, and low obstacles do not block one in the air.
 
 use crate::planning_support::{Case, PLANNERS, least_gap, model, rectangle, room};
 use starl_core::geometry::HeightSpan;
@@ -12,7 +12,7 @@ fn barrier(low: f64, high: f64) -> Vec<Obstacle> {
 }
 
 #[test]
-fn a_ground_robot_drives_under_what_is_higher_than_it() {
+fn a_ground_robot_drives_under_a_high_obstacle() {
     let model = model("create");
     let case = |low| Case::new(Point::ZERO, Point::planar(2.0, 0.0), barrier(low, 3.0));
     for planner in PLANNERS {

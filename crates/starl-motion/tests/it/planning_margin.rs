@@ -95,7 +95,7 @@ fn passage(width: f64) -> Case {
 }
 
 #[test]
-fn a_passage_too_narrow_for_the_whole_margin_is_gone_through_with_a_lesser_one() {
+fn a_narrow_passage_is_passed_with_a_smaller_margin() {
     let model = model("create");
     let radius = model.body().radius;
     for planner in [Planner::RrtConnect, Planner::RrtStar] {
@@ -113,7 +113,7 @@ fn a_passage_too_narrow_for_the_whole_margin_is_gone_through_with_a_lesser_one()
 }
 
 #[test]
-fn a_passage_narrower_than_positions_err_is_no_way() {
+fn a_passage_narrower_than_position_errors_is_closed() {
     let model = model("create");
     let radius = model.body().radius;
     let plan = |options: &Options, room: f64| {
@@ -135,8 +135,8 @@ fn a_passage_narrower_than_positions_err_is_no_way() {
 
 #[test]
 fn no_robot_squeezes_past_a_robot_in_a_door() {
-    // A door of one metre, a dead robot beside one of its posts, 6 mm more than the body on either side;
-    // round the end of the wall is another way.
+    // A door of one metre, a crashed robot beside one of its posts, 6 mm more than the body on either side; round the
+    // end of the wall is another way.
     let model = model("create");
     let posts = vec![wall((-3.0, 0.0), (0.0, 0.0)), wall((1.0, 0.0), (4.0, 0.0))];
     let dead = Neighbour {
@@ -164,13 +164,13 @@ fn no_robot_squeezes_past_a_robot_in_a_door() {
 }
 
 #[test]
-fn a_robot_that_stands_in_too_narrow_a_passage_leaves_it_but_enters_no_other() {
+fn a_robot_leaves_a_narrow_passage_but_enters_no_other() {
     let model = model("create");
     let radius = model.body().radius;
     for room in [0.019, 0.006, 0.001] {
         for planner in PLANNERS {
             for (door, is_way) in [(0.03, true), (0.018, false)] {
-                // It stands a little aside; its target is behind a door four metres farther.
+                // It stands a little to the side; its target is behind a door four metres farther.
                 let mut case = passage(2.0 * (radius + room)).with(planner, 3);
                 case.from = Point::planar(0.5, 0.2 * room);
                 case.request.target = Point::planar(6.0, 0.0);
@@ -193,7 +193,7 @@ fn a_robot_that_stands_in_too_narrow_a_passage_leaves_it_but_enters_no_other() {
 }
 
 #[test]
-fn a_start_and_a_target_in_a_narrow_passage_are_gone_between() {
+fn start_and_target_may_be_in_one_narrow_passage() {
     let model = model("create");
     let y = 1.1 * model.body().radius;
     let walls = vec![wall((0.0, -y), (5.0, -y)), wall((0.0, y), (5.0, y))];

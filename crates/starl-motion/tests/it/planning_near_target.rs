@@ -17,7 +17,7 @@ fn case(vicinity: f64) -> Case {
 }
 
 #[test]
-fn the_nearest_free_point_is_gone_to_if_it_is_near_enough() {
+fn a_blocked_target_is_replaced_by_the_nearest_free_point_in_its_vicinity() {
     let model = model("create");
     let body = model.body();
     let clear = body.radius * (1.0 + Options::default().margin_radii);
@@ -43,7 +43,7 @@ fn too_small_a_vicinity_gives_no_path() {
 }
 
 #[test]
-fn the_margin_yields_where_the_vicinity_allows_no_more_than_the_body_needs() {
+fn a_small_vicinity_reduces_the_margin() {
     let model = model("create");
     for planner in PLANNERS {
         let path = case(0.12).with(planner, 4).plan(&*model).expect("a path");

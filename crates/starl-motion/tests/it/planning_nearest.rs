@@ -51,7 +51,7 @@ fn the_nearest_point_found_is_the_nearest() {
 }
 
 #[test]
-fn many_points_at_one_place_are_no_trouble() {
+fn many_points_at_one_place_are_handled() {
     let mut set = Nearest::<2>::new();
     for _ in 0..100 {
         set.add(&[1.0, 2.0]);

@@ -1,4 +1,4 @@
-//! The world of the Race example: every leg is planned, whatever the seed, for all of its robots.
+//! The world of the Race example: every leg is planned with every seed for all of its robots.
 
 use crate::planning_support::{self, Case, least_gap, model, rectangle};
 use starl_core::Point;

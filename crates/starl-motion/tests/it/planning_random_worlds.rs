@@ -1,5 +1,5 @@
-//! Random worlds, judged by flooding a fine grid: where the flood gets through with room to spare a
-//! path is found, where it does not get through at all there is none, and every path keeps clear.
+//! Random worlds, judged by flooding a fine grid: if the flood gets through with room to spare a path is found, if it
+//! does not get through there is none, and every path is clear of obstacles.
 
 use crate::planning_support::{Case, least_gap, model, place, random_world as world};
 use starl_core::geometry::Obstacle;
@@ -58,7 +58,7 @@ fn gap(body: Body, at: Point, obstacles: &[Obstacle]) -> f64 {
 }
 
 #[test]
-fn paths_are_found_where_there_are_some_and_keep_clear() {
+fn existing_paths_are_found_and_are_clear() {
     let model = model("create");
     let body = model.body();
     let clear = body.radius * (1.0 + Options::default().margin_radii);

@@ -1,4 +1,4 @@
-//! How far one can go is told by what is come to first, though a later thing is looked at after it.
+//! The first obstacle on a ray decides its length, independent of the order of tests.
 
 use starl_core::Random;
 use starl_motion::planning::free_space::FreeSpace;
@@ -22,7 +22,7 @@ fn a_wall_is_not_forgotten_for_a_slope_behind_it() {
 }
 
 #[test]
-fn what_is_reached_is_seen_and_a_little_more_is_not() {
+fn the_reachable_part_is_clear_and_a_longer_one_is_not() {
     let mut random = Random::keyed(3, &[]);
     let point =
         |random: &mut Random| -> Vector<2> { core::array::from_fn(|_| random.between(0.0, 10.0)) };

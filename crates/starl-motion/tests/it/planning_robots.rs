@@ -53,7 +53,7 @@ fn a_drone_overhead_is_not_in_the_way_on_the_floor_nor_a_robot_on_the_floor_in_t
 }
 
 #[test]
-fn a_target_taken_by_a_robot_is_approached_as_far_as_the_vicinity_allows() {
+fn a_target_occupied_by_a_robot_is_approached_within_the_vicinity() {
     let model = model("create");
     let others = [robot(2.0, 0.0, 0.0, 0.1)];
     let mut case = case(true);

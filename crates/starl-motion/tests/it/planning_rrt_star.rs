@@ -19,7 +19,7 @@ fn space() -> FreeSpace<2> {
 const SHORTEST: f64 = 2.0 * 30.0 * core::f64::consts::SQRT_2 + 40.0;
 
 #[test]
-fn alone_it_comes_nearer_to_the_shortest_path_with_every_thousand_nodes() {
+fn it_approaches_the_shortest_path_with_more_nodes() {
     let (start, target) = ([0.0, 50.0], [100.0, 50.0]);
     let mut sums = [0.0; 4];
     for seed in 0..20 {
@@ -92,7 +92,7 @@ fn for_robots_it_finds_the_shorter_way_round() {
     let obstacles = vec![rectangle((1.0, -0.6), (1.2, 3.0))];
     let case = Case::new(Point::ZERO, Point::planar(2.2, 0.0), obstacles);
     let reach = 0.165 * (1.0 + starl_motion::planning::Options::default().margin_radii);
-    // Taut round the lower corners of the grown block, all but its rounding.
+    // Taut round the lower corners of the grown block, except for its rounding.
     let (x, y): (f64, f64) = (1.0 - reach * 0.3, 0.6 + reach);
     let about = 2.0 * (x * x + y * y).sqrt() + 0.2 + reach;
     for seed in 0..10 {

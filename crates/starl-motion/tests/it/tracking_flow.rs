@@ -5,7 +5,7 @@ use starl_core::{Duration, Point, Pose, Random};
 use starl_motion::{Goal, Model};
 
 /// The slowest speed while a robot drives past the middle one of three waypoints in a line, which
-/// it is told to leave at 0.2 m.
+/// it leaves at 0.2 m.
 fn slowest(model: &dyn Model, tells_next: bool) -> f64 {
     let start = model.body().reachable(Point::ZERO);
     let mut run = Run::new(model, Pose::level(start, 0.0), Positioning::EXACT, 1);

@@ -49,7 +49,7 @@ fn outputs_are_those_of_onnx_runtime() {
 }
 
 #[test]
-fn what_cannot_be_evaluated_is_refused_with_the_node_and_the_fix() {
+fn unsupported_operators_are_rejected_with_the_node_and_the_fix() {
     let messages = [
         (
             "operator",
@@ -139,7 +139,8 @@ fn numbers_without_bounds_give_no_panic_and_one_kind_of_nan() {
     }
 }
 
-/// These bits are the same in debug and release builds, natively and on WebAssembly, or runs cannot be repeated elsewhere.
+/// These bits are the same in debug and release builds, natively and on WebAssembly, or runs cannot be repeated
+/// elsewhere.
 #[test]
 fn a_sum_is_taken_in_the_order_of_the_inputs() {
     let network = read("dense").unwrap();

@@ -3,7 +3,7 @@
 //!
 //! `cargo bench -p starl-primitives --bench coordination -- [--quick]`
 //!
-//! Robots have nothing but the primitive, and a network without loss that takes the same time for each
+//! Robots have only the primitive, and a network without loss that takes the same time for each
 //! datagram. Each task is done with several seeds, with delays of 1 ms and of 2 ms. Time that grows with the
 //! delay counts as delays, the rest as waits of the algorithm. Messages count once for each receiver.
 //! Processor time is that of all robots together with the test's network: the median over the seeds by the

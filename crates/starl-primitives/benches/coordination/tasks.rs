@@ -13,15 +13,15 @@ pub struct Task {
     pub name: &'static str,
     /// The name of the instances whose messages count.
     pub port: &'static str,
-    /// A fleet of so many robots that is ready, by seed and delay in milliseconds.
+    /// A ready fleet of this number of robots, by seed and delay in milliseconds.
     pub prepare: Box<dyn Fn(usize, u64, u64) -> World>,
     /// Does it, and gives how long robots waited for it.
     pub run: Box<dyn Fn(&mut World) -> Duration>,
     /// Whether it is done once for each robot.
     pub is_of_each: bool,
-    /// Messages that it takes in theory, by the number of robots.
+    /// The theoretical number of messages, by the number of robots.
     pub messages: Box<dyn Fn(f64) -> String>,
-    /// Delays that it takes in theory, one after the other.
+    /// The theoretical number of successive delays.
     pub delays: &'static str,
 }
 
@@ -83,8 +83,8 @@ fn at_least(messages: impl Fn(f64) -> f64 + 'static) -> Box<dyn Fn(f64) -> Strin
 
 fn mutexes() -> Vec<Task> {
     use mutex::Algorithm::{Lease, Permission, Quorum};
-    // Request and permission; or request, grant and release. In a crowd robots that wait for a quorum are told,
-    // asked to yield, and yield.
+    // Request and permission; or request, grant and release. In a crowd robots that wait for a quorum receive
+    // that news, are asked to yield, and yield.
     let each = |algorithm| match algorithm {
         Permission => ("2", 2.0, "1", 2.0),
         Quorum => ("2", 3.0, "2", 6.0),

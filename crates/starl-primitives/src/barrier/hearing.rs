@@ -1,7 +1,7 @@
-//! How a robot learns which generation comes next, and that all have come to it.
+//! How a robot learns the next generation, and that all robots have arrived at it.
 //!
-//! Invariant: of robots that know their generation, none is more than one ahead of another that keeps its
-//! memory; and what counts of a robot's words was said after it had heard of this robot's present life.
+//! Invariant: of robots that know their generation, none is more than one ahead of another that keeps its memory; and
+//! only messages count that a robot has sent after it had heard of this robot's present life.
 //!
 //! A robot's announcement of its generation, once it knows it, stays true as long as a robot remembers it. So it
 //! counts until another life is heard of. From then on the announcements of that life count, once it has proved to be
@@ -124,7 +124,7 @@ impl Barrier {
         }
     }
 
-    /// Whether a robot is known to have come to this robot's generation.
+    /// Whether a robot is known to have arrived at this robot's generation.
     pub(super) fn has_arrived(&self, peer: RobotId) -> bool {
         self.said(peer).is_some_and(|said| {
             said.knows && (said.generation, said.waits) >= (self.generation, true)
@@ -152,9 +152,9 @@ impl Barrier {
         }
     }
 
-    /// The robots from which this robot needs a message: before it can pass, or before it knows its
-    /// generation. Two robots that do not know theirs and have answered each other send no more, or they would
-    /// answer for ever.
+    /// The robots from which this robot needs a message: before it can pass, or before it knows its generation. Two
+    /// robots that do not know their generation stop after they have answered each other, or they would answer for
+    /// ever.
     pub(super) fn missing(&self, robot: &Robot<'_>) -> Vec<RobotId> {
         let others = self.others(robot);
         others.filter(|peer| self.is_missing(*peer)).collect()
@@ -200,7 +200,7 @@ impl Peer {
         self.lives.known().filter(|_| self.lives.asked().is_none())
     }
 
-    /// The same, if it knows what comes next.
+    /// The same, if it knows its generation.
     pub(super) fn certain(&self) -> Option<&Words> {
         self.said().filter(|said| said.knows)
     }

@@ -22,9 +22,9 @@
 //! there.
 //!
 //! These hold if not all datagrams are lost:
-//! - progress: when all participants have come and are up, all pass;
-//! - failures are visible: while a missing participant is believed to have failed,
-//!   [`Barrier::failed`] is true. If it returns and arrives, all pass.
+//! - progress: when all participants have arrived and are up, all pass;
+//! - failures are visible: while a missing participant is suspected, [`Barrier::failed`] is true. If it returns and
+//!   arrives, all pass.
 //!
 //! Announcements before a crash still count: the others do not wait for a robot that arrived and crashed
 //! in that generation.
@@ -54,12 +54,12 @@ const GREATEST: u64 = 1 << 62;
 
 timers! {
     enum Alarm {
-        /// The robot is to say again how far it is.
+        /// The robot must repeat its announcement.
         Repeat,
     }
 }
 
-/// A point that all come to before anyone goes on. See the [module](self).
+/// A point at which all robots arrive before any continues. See the [module](self).
 #[derive(Clone, Debug)]
 pub struct Barrier {
     port: Port,
@@ -94,7 +94,7 @@ struct Peer {
     echo: u32,
     /// Whether that is a token that it drew for this robot's present life.
     asks_anew: bool,
-    /// Whether it was told how far this robot is.
+    /// Whether it has received this robot's position in the barrier.
     is_told: bool,
 }
 
@@ -108,8 +108,8 @@ struct Words {
 }
 
 impl Barrier {
-    /// An instance; those of the same name on all robots are the same barrier. `participants` have to come,
-    /// all of the fleet if none are given; they are to be the same everywhere.
+    /// An instance; those of the same name on all robots are the same barrier. `participants` must arrive, the whole
+    /// fleet if none are given; they must be the same on all robots.
     pub fn new(name: &str, participants: Option<BTreeSet<RobotId>>, options: Options) -> Barrier {
         Barrier {
             port: Port::named(name),
@@ -147,7 +147,7 @@ impl Barrier {
         self.pass_if_all_have_come(robot);
     }
 
-    /// Whether all have come since this robot last arrived; false before it ever does.
+    /// Whether all have arrived since this robot last arrived; false before its first arrival.
     pub fn passed(&self) -> bool {
         self.has_come && !self.waits
     }
@@ -157,8 +157,8 @@ impl Barrier {
         self.waits
     }
 
-    /// Whether this robot waits for one that is believed to have failed. It waits on, and passes should
-    /// that robot come back and arrive.
+    /// Whether this robot waits for a suspected robot. It continues to wait, and passes if that robot returns and
+    /// arrives.
     pub fn failed(&self) -> bool {
         // Robots that have arrived by now are not waited for, dead or alive.
         self.waits

@@ -121,8 +121,8 @@ impl Broadcast {
         }
     }
 
-    /// Whether some robot has neither acknowledged the message nor been given up; in total order,
-    /// whether this robot has neither been handed it nor given it up.
+    /// Whether the message still waits for the acknowledgement of some robot; in total order, whether this robot has
+    /// neither delivered it nor given it up.
     pub fn is_outstanding(&self, message: MessageId) -> bool {
         match &self.way {
             Way::Acknowledged(channel) => channel.reliable.is_outstanding(message),
@@ -140,8 +140,8 @@ impl Broadcast {
         }
     }
 
-    /// The messages that some robot did not acknowledge, since the last call; at most the latest 64. In
-    /// total order, those that were given up without a place in the order, whose receivers are unknown.
+    /// The messages that some robot did not acknowledge, since the last call; at most the latest 64. In total order,
+    /// the messages that were given up without a position, whose receivers are unknown.
     pub fn take_failures(&mut self) -> Vec<Failure> {
         match &mut self.way {
             Way::Acknowledged(channel) => channel.take_failures(),

@@ -1,17 +1,17 @@
-//! In which order messages are handed to programs.
+//! The order in which messages are delivered to programs.
 
 use starl_core::event::messaging;
 
-/// The order of messages. Each demands what those before it do, but for total order, which does not
-/// demand causal order across senders (Hadzilacos and Toueg 1994).
+/// The order of messages. Each includes the previous ones, except that total order does not include causal order across
+/// senders (Hadzilacos and Toueg 1994).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
-    /// As they come.
+    /// In the order of arrival.
     #[default]
     Unordered,
     /// Each sender's in the order in which they were sent.
     Fifo,
-    /// A message after all that its sender had sent or received when it sent it.
+    /// A message is delivered after all messages that its sender had sent or received before it.
     Causal,
     /// The same order on all robots, the sender's own messages among them.
     Total,

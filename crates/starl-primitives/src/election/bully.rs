@@ -1,12 +1,12 @@
-//! The bully algorithm (Garcia-Molina 1982, "Elections in a distributed computing system"): of the robots
-//! that are up and stand, the greatest leads.
+//! The bully algorithm (Garcia-Molina 1982, "Elections in a distributed computing system"): of the candidates that are
+//! up, the one with the greatest number leads.
 //!
-//! A robot asks all greater ones whether they are there. If none answers, it leads and says so to all. One
-//! that answers sees to it that there is a leader, by doing the same.
+//! A robot asks all greater ones whether they are there. If none answers, it leads and tells all. A robot that answers
+//! does the same itself.
 //!
-//! Where it differs: failures are found by the program's failure detector and by time-outs, both of which
-//! may be wrong; questions are repeated; a leader goes on saying that it leads, and one that hears a lesser
-//! robot say so contradicts it. So robots that were led by different ones agree when they hear each other.
+//! Where it differs: failures are found by the program's failure detector and by time-outs, both of which may be wrong;
+//! questions are repeated; a leader announces itself repeatedly, and a greater robot that hears a smaller leader
+//! contradicts it. So robots with different leaders agree when they hear each other.
 
 use super::options::{no_later, random_bits};
 use super::packet::Packet;
@@ -52,7 +52,7 @@ impl Bully {
         scene.tell(&greater, Packet::Election);
     }
 
-    /// Takes the lead, or says once more that it has it.
+    /// Takes the lead, or says again that it has it.
     fn lead(&mut self, scene: &mut Scene<'_, '_>) {
         (self.leader, self.question) = (Some(scene.me()), None);
         self.due = scene.now() + scene.options.period();

@@ -1,13 +1,13 @@
-//! The numbers of leaderships.
+//! Epochs: the numbers of leaders' terms.
 //!
-//! Invariant: an epoch names its leader, and no robot uses one twice. It is the moment at which a robot
-//! stood, in milliseconds of its own clock, and that robot's number. Where it knows of later epochs, since another's clock is
-//! ahead, it is the first later moment that differs from its clock by a whole number of [`CYCLE`]s. So two leaders
-//! cannot share an epoch even if every vote is forgotten, as long as no robot's clock goes back while it is down; and
-//! an epoch that a corruption made up is no other robot's either. Only a robot that forgets an epoch of its own which
-//! was ahead of its clock, and hears again of the one before it, could use it twice, and only if it stands whole cycles
-//! later. Epochs are ahead of clocks by no more than a cycle for each leader, so that they go on growing with the clocks
-//! where all is forgotten.
+//! Invariant: an epoch names its leader, and no robot uses one twice. It is the time of the candidacy, in milliseconds
+//! of the robot's own clock, and the robot's number. If the robot knows later epochs, because another's clock is ahead,
+//! it is the first later time that differs from its clock by a whole number of [`CYCLE`]s. So two leaders cannot share
+//! an epoch even if every vote is forgotten, as long as no robot's clock goes back while it is down; and an epoch
+//! invented by a corruption is not that of another robot. Only a robot that forgets an epoch of its own which was ahead
+//! of its clock, and hears again of the one before it, could use it twice, and only if it stands whole cycles later.
+//! Epochs are ahead of clocks by at most a cycle for each leader, so they continue to grow with the clocks after all
+//! state is lost.
 
 use super::options::random_bits;
 use serde::{Deserialize, Serialize};

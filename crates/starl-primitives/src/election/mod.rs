@@ -1,23 +1,23 @@
 //! Election of a leader among participants (thesis, section 3.4.2).
 //!
-//! A robot that calls [`LeaderElection::elect`] stands for election from then on.
-//! [`LeaderElection::leader`] returns the leader: none during an election. A leader that fails or
-//! resigns is replaced automatically. The option [`Algorithm`] selects the algorithm:
+//! A robot that calls [`LeaderElection::elect`] is a candidate from then on. [`LeaderElection::leader`] returns the
+//! leader: none during an election. A leader that fails or resigns is replaced automatically. The option [`Algorithm`]
+//! selects the algorithm:
 //!
 //! - `Leases` (default, `leases/`): by votes of a majority of the participants, for an epoch and for the time of
 //!   a lease. Each epoch has one leader whatever the network does and whichever robots crash and restart. Epochs
 //!   grow, so they serve as fencing numbers. Two robots never lead at the same time if clocks keep to the
 //!   allowed drift. A robot that is disconnected from a majority shows no leader.
-//! - `Ballots` (`ballots.rs`): each draws a number, the greatest wins, as in the thesis. In each part of a
-//!   network that falls apart there is a leader.
-//! - `Bully` (`bully.rs`): the greatest robot wins, likewise.
+//! - `Ballots` (`ballots.rs`): each draws a number, the greatest wins, as in the thesis. In each part of a partitioned
+//!   network there is a leader.
+//! - `Bully` (`bully.rs`): the greatest robot wins as well.
 //!
 //! Connected robots show the same leader within a time that the reference gives. The leader is a
 //! participant that has called `elect`. An election that takes too long has
 //! [failed](LeaderElection::failed), and continues.
 //!
-//! Self-stabilising: what is out of all bounds is put right at the next activation, and all else is
-//! overwritten by what leaders say again and again.
+//! Self-stabilising: impossible values are repaired at the next activation, and the rest is overwritten by the leaders'
+//! repeated announcements.
 
 mod ballots;
 mod bully;
@@ -73,7 +73,7 @@ pub struct LeaderElection {
 pub enum Change {
     /// This robot leads from now on; or it did before, and does in a later epoch.
     Elected(RobotId),
-    /// This robot was, and there is none any more.
+    /// This robot was the leader, and there is none any more.
     Lost(RobotId),
 }
 
@@ -133,8 +133,8 @@ impl LeaderElection {
         }
     }
 
-    /// Stands for election (the thesis's do_election), until [`LeaderElection::resign`]. With Ballots and
-    /// Bully this begins an election if none is under way; with Leases it joins in: a leader stays.
+    /// Makes the robot a candidate (the thesis's do_election), until [`LeaderElection::resign`]. With Ballots and Bully
+    /// this starts an election if there is none; with Leases an existing leader stays.
     pub fn elect(&mut self, robot: &mut Robot<'_>) {
         self.begin(robot);
         self.called = true;
@@ -157,7 +157,7 @@ impl LeaderElection {
         self.settle(robot);
     }
 
-    /// The leader, as far as this robot knows; none during an election.
+    /// The leader known to this robot; none during an election.
     pub fn leader(&self) -> Option<RobotId> {
         Some(self.shown?.leader)
     }
@@ -168,13 +168,13 @@ impl LeaderElection {
         self.shown?.epoch
     }
 
-    /// Whether this robot stands, but has had no leader for [`Options::give_up`], or is no participant. The
-    /// election goes on all the same, and the flag falls when there is a leader.
+    /// Whether this robot is a candidate but has had no leader for [`Options::give_up`], or is not a participant. The
+    /// election continues nevertheless, and the flag becomes false when there is a leader.
     pub fn failed(&self) -> bool {
         self.failed
     }
 
-    /// Whether this robot stands for election.
+    /// Whether this robot is a candidate.
     pub fn stands(&self) -> bool {
         self.called && self.takes_part
     }

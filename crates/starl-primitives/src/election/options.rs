@@ -17,15 +17,15 @@ pub struct Options {
     pub drift: f64,
     /// The time between two messages by which a leader says that it leads. Default 500 ms.
     pub period: Duration,
-    /// The time until the first retransmission, then twice that, up to four times the period. Best a
-    /// few times the network's delay. Default 250 ms.
+    /// The time until the first retransmission, then twice that, up to four times the period. Use a few times the
+    /// network's delay. Default 250 ms.
     pub first_timeout: Duration,
-    /// Bully: a greater robot that has not answered for this time is taken for failed. Default 1 s.
+    /// Bully: a greater robot that has not answered for this time counts as failed. Default 1 s.
     pub answer_timeout: Duration,
-    /// Ballots and Bully: a leader that has said nothing for this time has failed, and so has a robot whose
+    /// Ballots and Bully: a leader that has been silent for this time counts as failed, and so does a robot whose
     /// ballot is missing, or that has promised to lead. Default 5 s.
     pub patience: Duration,
-    /// An election that has taken this long counts as failed; it goes on all the same. Default 15 s.
+    /// An election that has taken this long counts as failed; it continues nevertheless. Default 15 s.
     pub give_up: Duration,
     /// Ballots: each is a number below this. The fewer there are the more draws are tied. Default 2³² - 1.
     pub ballots: u32,

@@ -71,7 +71,7 @@ pub(super) struct Outcome {
     pub leader: RobotId,
 }
 
-/// Leases: a request for a vote, for the first time or once more.
+/// Leases: a request for a vote, for the first time or again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Claim {
     pub epoch: Epoch,
@@ -88,7 +88,7 @@ pub(super) struct Memory {
     pub attempt: u32,
     /// The latest epoch that it has promised or heard of.
     pub promised: Epoch,
-    /// Whether it remembers all that it promised before the receiver started.
+    /// Whether it remembers all its promises from before the receiver's start.
     pub remembers: bool,
     /// For how long it has been up, by its clock.
     pub up_for: Duration,

@@ -14,7 +14,7 @@ pub(super) struct Leadership {
 
 /// An algorithm.
 pub(super) trait Rules {
-    /// The robot stands for election from now on, or asks for a new one.
+    /// The robot becomes a candidate, or requests a new election.
     fn elect(&mut self, scene: &mut Scene<'_, '_>);
     /// The robot no longer stands.
     fn resign(&mut self, scene: &mut Scene<'_, '_>);
@@ -22,17 +22,17 @@ pub(super) trait Rules {
     fn receive(&mut self, scene: &mut Scene<'_, '_>, from: RobotId, packet: Packet);
     /// A participant is believed to have failed.
     fn suspect(&mut self, scene: &mut Scene<'_, '_>, peer: RobotId);
-    /// Does what is due by now, and makes sense of what a corruption may have left.
+    /// Performs the due steps, and repairs states that a corruption may have left.
     fn settle(&mut self, scene: &mut Scene<'_, '_>);
     /// When something is due next.
     fn due(&self, scene: &Scene<'_, '_>) -> Time;
-    /// The leader, as far as this robot knows.
+    /// The leader known to this robot.
     fn leadership(&self, me: RobotId) -> Option<Leadership>;
     /// Takes up what storage holds, when the robot starts.
     fn recall(&mut self, scene: &mut Scene<'_, '_>) {
         let _ = scene;
     }
-    /// Saves what is to outlast a restart, if it has changed.
+    /// Saves the state for a restart, if it has changed.
     fn save(&mut self, robot: &mut Robot<'_>, port: Port) {
         let _ = (robot, port);
     }

@@ -70,7 +70,7 @@ impl LeaderElection {
         what(self.rules.rules_mut(), &mut scene);
     }
 
-    /// Does what is due, reports what has changed, and sees to it that the next thing is not missed.
+    /// Performs the due steps, reports changes, and arms the timer of the next step.
     pub(super) fn settle(&mut self, robot: &mut Robot<'_>) {
         let mut due = Time::NEVER;
         self.run(robot, |rules, scene| {

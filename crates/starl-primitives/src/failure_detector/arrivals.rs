@@ -48,8 +48,8 @@ impl Arrivals {
         self.last = now;
     }
 
-    /// The suspicion was false: the next one is to come later. So in a network that keeps some bound,
-    /// even an unknown one, false suspicions come to an end (Chandra and Toueg 1996, section 5.1).
+    /// The suspicion was false: the next one is delayed. So in a network with some bound, even an unknown one, false
+    /// suspicions end (Chandra and Toueg 1996, section 5.1).
     pub fn forgive(&mut self, options: &Options) {
         let margin = self.margin + options.period();
         self.margin = margin.min(options.longest_patience);
@@ -67,7 +67,7 @@ impl Arrivals {
         (usual + self.margin).min(options.longest_patience)
     }
 
-    /// Makes sense of what a corruption may have left, and of a clock that was set back.
+    /// Repairs states that a corruption or a clock set back may have left.
     pub fn settle(&mut self, now: Time, options: &Options) {
         self.last = self.last.min(now);
         let longest = options.longest_patience.seconds();

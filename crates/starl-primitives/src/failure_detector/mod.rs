@@ -1,15 +1,15 @@
 //! Failure detection, shared by all primitives that wait for other robots.
 //!
-//! Every robot sends heartbeats; a robot whose silence would be too unlikely, judged by how its
-//! heartbeats came before, is suspected (phi accrual failure detector: Hayashibara, Defago, Yared and
-//! Katayama 2004). Unlike there, mean and variance fade rather than coming from a window, the margin
-//! grows with every suspicion that proves false, and silence is looked at once a period.
+//! Every robot sends heartbeats; a robot whose silence is too unlikely, given the arrival of its earlier heartbeats, is
+//! suspected (phi accrual failure detector: Hayashibara, Defago, Yared and Katayama 2004). Unlike there, mean and
+//! variance fade rather than coming from a window, the margin grows with every suspicion that proves false, and silence
+//! is checked once a period.
 //!
 //! Properties, in a network that from some time on delivers enough heartbeats within some unknown
 //! bound (an eventually perfect detector: Chandra and Toueg 1996):
-//! - completeness: every robot that stays down comes to be suspected for good by all that are up, within
-//!   [`FailureDetector::patience`] of its last heartbeat, which is never more than
-//!   [`Options::longest_patience`], and a period more;
+//! - completeness: every robot that stays down is eventually suspected permanently by all that are up, within
+//!   [`FailureDetector::patience`] of its last heartbeat, which is never more than [`Options::longest_patience`], and a
+//!   period more;
 //! - accuracy: from some time on no robot suspects a robot that is up, connected and keeps running;
 //! - a restart does not pass unnoticed, however short: the robot is suspected and trusted again.
 //!
@@ -92,7 +92,7 @@ impl FailureDetector {
         suspected.map(|(&robot, _)| robot)
     }
 
-    /// The silence after which a robot is suspected, as things stand; none of one that is not watched.
+    /// The silence after which a robot is suspected at present; none for a robot that is not watched.
     pub fn patience(&self, robot: RobotId) -> Option<Duration> {
         let arrivals = self.peers.get(&robot)?;
         Some(arrivals.patience(&self.options, self.deviations))

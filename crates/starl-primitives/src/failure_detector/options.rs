@@ -1,4 +1,4 @@
-//! How often robots say that they are up, and how soon the silence of one is taken for a failure.
+//! The period of heartbeats, and the limits of silence before a suspicion.
 
 use starl_core::{Duration, math};
 
@@ -11,7 +11,7 @@ pub struct Options {
     /// A robot is suspected once its silence would be this unlikely, as the negative decimal logarithm
     /// of the odds that it is only late (the papers' phi). Default 8.
     pub threshold: f64,
-    /// Silence up to this beyond what is usual is never held against a robot. Default 500 ms.
+    /// A robot is not suspected for a silence up to this time beyond the usual one. Default 500 ms.
     pub margin: Duration,
     /// Silence longer than this is always held against a robot. The margin grows by a period whenever
     /// a suspicion proves false, up to this. Default 15 s.

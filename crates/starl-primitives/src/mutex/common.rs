@@ -15,14 +15,14 @@ const FURTHEST: u64 = 1 << 45;
 
 timers! {
     pub(super) enum Alarm {
-        /// A robot's request is due to be repeated, or what it holds to be renewed.
+        /// A robot's request must be repeated, or its lease renewed.
         Repeat,
-        /// Unanswered questions of an arbiter that is not ready are to be repeated.
+        /// Unanswered questions of an arbiter that is not ready must be repeated.
         Recall,
     }
 }
 
-/// Names a request among all that its robot ever makes.
+/// Identifies a request among all requests of its robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct RequestId {
     /// Drawn when the robot starts.
@@ -83,7 +83,7 @@ impl Common {
         self.clock
     }
 
-    /// Takes note of another's clock; false if it is none.
+    /// Updates the Lamport clock by another's; false if it is invalid.
     pub fn hear(&mut self, clock: u64) -> bool {
         if clock > self.clock.saturating_add(FURTHEST) {
             return false;
@@ -124,7 +124,7 @@ impl Common {
         }
     }
 
-    /// Reports that what is held is held from now on.
+    /// Reports that the resources are held from now on.
     pub fn report_entered(&self, robot: &mut Robot<'_>) {
         let enter = |resource| MutexEvent::Enter {
             resource,
@@ -139,7 +139,7 @@ impl Common {
         self.report(robot, |resource| MutexEvent::Expire { resource }, resources);
     }
 
-    /// Reports that what is held was granted with this number.
+    /// Reports the number with which the resources were granted.
     pub fn report_numbered(&self, robot: &mut Robot<'_>, number: u64) {
         for resource in &self.held {
             let enter = MutexEvent::Enter {
@@ -151,7 +151,7 @@ impl Common {
         }
     }
 
-    /// Overwrites the state at random; `some` are what it comes to hold.
+    /// Overwrites the state at random; `some` are the resources that it holds afterwards.
     pub fn corrupt(&mut self, random: &mut Random, some: Resources) {
         self.held = some;
         self.suspects.retain(|_| random.chance(0.5));

@@ -9,8 +9,8 @@
 //! - progress: if every holder releases its resources, every request is granted, in the order of
 //!   Lamport's clock where requests overlap: there is no starvation, and overlapping sets do not
 //!   deadlock;
-//! - non-interference: a request without overlap is granted after one exchange of messages, two where
-//!   robots hear of each other for the first time;
+//! - non-interference: a request without overlap is granted after one exchange of messages, two if robots hear of each
+//!   other for the first time;
 //! - failures are visible: if a request waits for a robot that the program's
 //!   [`crate::FailureDetector`] suspects, [`Mutex::failed`] is true until the robot is trusted
 //!   again.
@@ -18,8 +18,8 @@
 //! The resources of a crashed robot stay locked until it is up again, when it holds nothing; with leases
 //! until its lease ends.
 //!
-//! After a corruption of its state a robot may believe that it holds what another holds, until it gives it
-//! back. From then on all holds again.
+//! After a corruption of its state a robot may believe that it holds a resource of another robot, until it releases it.
+//! From then on all guarantees hold again.
 
 mod arbitration;
 mod common;
@@ -68,8 +68,8 @@ macro_rules! each {
 /// Why a request was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AcquireError {
-    /// The robot holds resources already. Two robots that held some and waited for others could wait
-    /// for each other for ever, so all that is needed is to be asked for at once.
+    /// The robot already holds resources. Two robots that hold some and wait for others could deadlock, so a robot must
+    /// request all its resources at once.
     HoldsOthers,
 }
 
@@ -97,7 +97,7 @@ impl Mutex {
     /// participants are asked. An empty set needs no request and counts as held.
     ///
     /// # Errors
-    /// Where the robot holds something.
+    /// If the robot holds something.
     pub fn acquire(
         &mut self,
         robot: &mut Robot<'_>,
@@ -126,8 +126,7 @@ impl Mutex {
         Ok(())
     }
 
-    /// Gives back resources, all that are held or some; those that are still waited for are no longer
-    /// asked for.
+    /// Releases all held resources or some; requests for them are withdrawn.
     pub fn release(&mut self, robot: &mut Robot<'_>, resources: &Resources) {
         let common = &mut self.common;
         let left: Resources = common.held.intersection(resources).cloned().collect();
@@ -173,8 +172,8 @@ impl Mutex {
         self.wanted().is_some_and(|wanted| !wanted.is_empty())
     }
 
-    /// Whether a request waits for a robot that is believed to have failed. The request stays, and
-    /// goes on should the robot come back; [`Mutex::release`] withdraws it.
+    /// Whether a request waits for a suspected robot. The request stays, and continues if the robot returns;
+    /// [`Mutex::release`] withdraws it.
     pub fn failed(&self) -> bool {
         each!(&self.protocol, state => state.failed(&self.common))
     }
@@ -191,7 +190,7 @@ impl Mutex {
         each!(&mut self.protocol, state => state.corrupt(random, wanted));
     }
 
-    /// All resources that this robot knows of: those that it or others hold, ask for or held.
+    /// All resources that this robot knows: those that it or others hold, request or held.
     pub fn known_resources(&self) -> Resources {
         let mut known = self.common.held.clone();
         each!(&self.protocol, state => state.add_resources(&mut known));

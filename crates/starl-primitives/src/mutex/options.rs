@@ -20,8 +20,8 @@ pub enum Algorithm {
 pub struct Options {
     /// How robots agree. Default [`Algorithm::Permission`].
     pub algorithm: Algorithm,
-    /// A request is repeated after this time to those that have not permitted it; best a few times the
-    /// network's delay. Default 250 ms.
+    /// A request is repeated after this time to robots that have not permitted it; use a few times the network's delay.
+    /// Default 250 ms.
     pub first_timeout: Duration,
     /// The time between repetitions doubles up to this. Default 2 s.
     pub longest_timeout: Duration,

@@ -76,7 +76,7 @@ impl ReachAvoid {
         true
     }
 
-    /// Whether the path is of no use any more; then another one is asked for.
+    /// Whether the path has become useless; then another one is requested.
     fn check_path(&mut self, robot: &mut Robot<'_>) -> bool {
         let Some(command) = &mut self.command else {
             return true;
@@ -104,7 +104,7 @@ impl ReachAvoid {
                 return true;
             }
         }
-        // Avoidance of other robots, or wind, may have pushed it aside so that the straight way to
+        // Avoidance of other robots, or wind, may have pushed it off its path so that the straight way to
         // the next point is not the one that was planned.
         let slack = 0.5 * self.options.vicinity;
         let blocked = |o: &Obstacle| blocks(o, position, route.current(), body, slack);

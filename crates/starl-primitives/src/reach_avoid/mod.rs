@@ -118,12 +118,11 @@ impl ReachAvoid {
         }
     }
 
-    /// Goes to the last of these points by way of the others, straight from each to the next, and keeps
-    /// out of the unsafe set (the sequence of points that the thesis's intersection sends to its motion
-    /// control). It neither stops at the points nor before it sets out, so a robot that is under way
-    /// drives on. Points are passed as those of a planned path are. Where one of the straight ways
-    /// is not free a path to the last point is planned, and so whenever one has to be planned again.
-    /// Without points it is given up at once.
+    /// Goes to the last of these points through the others, straight from each to the next, and keeps out of the unsafe
+    /// set (the sequence of points that the thesis's intersection sends to its motion control). It neither stops at the
+    /// points nor before it sets out, so a robot that is under way drives on. Points are passed as those of a planned
+    /// path are. Where one of the straight ways is not free a path to the last point is planned, and so whenever one
+    /// has to be planned again. Without points it is given up at once.
     pub fn follow(&mut self, robot: &mut Robot<'_>, points: &[Point], unsafe_set: Obstacles) {
         let Some(&target) = points.last() else {
             self.clear();

@@ -3,7 +3,7 @@
 use starl_core::Duration;
 use starl_core::motion::Planner;
 
-/// Settings of [`super::ReachAvoid`]. Lengths are to be positive.
+/// Settings of [`super::ReachAvoid`]. Lengths must be positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// The target is reached at this distance from it, metres: in space for robots that fly, planar

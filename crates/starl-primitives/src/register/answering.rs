@@ -1,7 +1,7 @@
 //! The answers of participants, including this robot, and when they are enough.
 //!
-//! Invariant: answers count together only if none of them is from a life of its sender that another one
-//! knows to be over. So what a majority has stored or promised, a majority has, or has recovered.
+//! Invariant: answers count together only if none of them is from a life of its sender that another one knows to be
+//! over. So a value or promise of a majority is still that of a majority, or has been recovered.
 
 use super::operation::{Answer, Kind, Phase};
 use super::packet::{Entry, QuestionId};
@@ -18,7 +18,7 @@ pub(super) enum Said {
         promised: Option<Tag>,
         version: Option<Version>,
     },
-    /// That it has stored what has this tag.
+    /// It has stored the copy with this tag.
     Stored(Tag),
     /// That it has not promised or stored that, since a greater ballot is promised.
     Refused { tag: Tag, promised: Tag },
@@ -41,7 +41,7 @@ impl Register {
         }
     }
 
-    /// Takes note of an answer, if it is one to what is asked now.
+    /// Records an answer, if it is one to what is asked now.
     fn note(&mut self, from: RobotId, life: u64, number: u32, said: Said) -> bool {
         let Some(operation) = self.operations.get_mut(&number) else {
             return false;
@@ -131,7 +131,7 @@ impl Register {
         self.note(me, life, number, said);
     }
 
-    /// Goes on with an operation if a majority has answered.
+    /// Continues an operation if a majority has answered.
     pub(super) fn advance(&mut self, robot: &mut Robot<'_>, number: u32) {
         let (me, majority) = (robot.id(), self.majority(robot));
         let incarnation = self.incarnation.of(robot);
@@ -176,7 +176,7 @@ impl Register {
         }
     }
 
-    /// Whether an operation cannot go on as it is, since others have promised a greater ballot.
+    /// Whether an operation cannot continue as it is, since others have promised a greater ballot.
     pub(super) fn is_refused(&self, robot: &Robot<'_>, number: u32) -> bool {
         let majority = self.majority(robot);
         self.operations.get(&number).is_some_and(|operation| {
@@ -204,7 +204,7 @@ impl Register {
         }
     }
 
-    /// Waits before the next claim: the longer the more often it was refused, as so many may want the same.
+    /// Waits before the next claim. The wait grows with the number of refusals, because many robots may be competing.
     pub(super) fn wait_at_random(&mut self, robot: &mut Robot<'_>, number: u32) {
         let rounds = self.operations.get(&number).map_or(0, |o| o.rounds);
         let for_all = self.options.first_timeout * robot.fleet().len() as u64;

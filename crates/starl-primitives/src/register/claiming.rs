@@ -1,11 +1,10 @@
-//! Reading a register and writing it as one step: claims.
+//! Claims: reading and writing a register as one step.
 //!
-//! A claim asks a majority for its copies, and to promise to store nothing under a lower ballot; what is
-//! written then is stored under the claim's ballot. So of two robots that claim a register one is refused or
-//! has read what the other one wrote: no update is lost, whatever clocks, locks and leases say. This is
-//! Lamport's Paxos (1998, "The Part-Time Parliament") for one value that changes: Rystsov 2018, "CASPaxos:
-//! Replicated State Machines without logs". A ballot is also a fencing number (Kleppmann 2016) that is checked
-//! where the value is kept.
+//! A claim asks a majority for its copies, and for the promise to store nothing under a lower ballot; the following
+//! write is stored under the claim's ballot. So of two robots that claim a register one is refused or has read the
+//! write of the other: no update is lost, independent of clocks, locks and leases. This is Lamport's Paxos (1998, "The
+//! Part-Time Parliament") for one value that changes: Rystsov 2018, "CASPaxos: Replicated State Machines without logs".
+//! A ballot is also a fencing number (Kleppmann 2016) that is checked where the value is kept.
 //!
 //! Invariant: a value is *chosen* once a majority has stored it while it had promised nothing greater. Each
 //! ballot is used by one robot for one value. A robot that claims under a greater ballot learns every value
@@ -14,12 +13,12 @@
 //! promised. A robot that restarts recovers promises like copies: for each promise that it gave, a robot of
 //! the majority that it hears knows as much (the module `recovery`).
 //!
-//! Some robots may have stored a refused write, and the robot that claimed the register after it may have
-//! read it there or not. To decide this, a copy names the latest ballot of each robot among those that have
-//! led to it. The writer claims the register itself, checks whether its ballot is among them, and has the
-//! copy stored again under its new ballot: from then on no earlier value can be chosen. An unfinished write
-//! of a dead robot becomes part of the next claim that finds it, or is never chosen. So the write is
-//! [`Status::Done`](super::Status::Done) or [`Status::Lost`](super::Status::Lost), and never both.
+//! Some robots may have stored a refused write, and the robot that claimed the register after it may have read it there
+//! or not. To decide this, a copy names the latest ballot of each robot among those that have led to it. The writer
+//! claims the register itself, checks whether its ballot is among them, and has the copy stored again under its new
+//! ballot: from then on no earlier value can be chosen. An unfinished write of a crashed robot becomes part of the next
+//! claim that finds it, or is never chosen. So the write is [`Status::Done`](super::Status::Done) or
+//! [`Status::Lost`](super::Status::Lost), and never both.
 
 use super::operation::{Kind, Operation, Phase};
 use super::tag::Tag;
@@ -37,16 +36,15 @@ pub(super) struct Claimed {
 }
 
 impl Register {
-    /// Begins to read a register in order to write it: no other write comes between this one and
-    /// [`Register::write_claimed`], or that one is lost. The value read is certain only once that one is
-    /// done.
+    /// Begins to read a register in order to write it: no other write takes effect between this read and
+    /// [`Register::write_claimed`], or that write is lost. The value read is certain only once that write is done.
     ///
     /// Robots that claim the same register at once disturb each other; the holder of a lock on it is
     /// not disturbed.
     ///
     /// # Errors
-    /// Where the name is too long, or too much is under way; and while this robot claims that register or
-    /// writes what it has claimed.
+    /// The name is too long, there are too many operations, or this robot already claims that register or writes it
+    /// after a claim.
     pub fn claim(
         &mut self,
         robot: &mut Robot<'_>,
@@ -111,7 +109,7 @@ impl Register {
         Ok(id)
     }
 
-    /// Asks for all there is under a greater ballot.
+    /// Asks for all copies under a greater ballot.
     pub(super) fn claim_anew(&mut self, robot: &mut Robot<'_>, number: u32) {
         let incarnation = self.incarnation.of(robot);
         let Some(operation) = self.operations.get_mut(&number) else {

@@ -11,8 +11,8 @@ use starl_core::{Duration, Payload, Random, Robot, RobotId, Time};
 const LONGEST_VALUE: u32 = 40;
 
 impl Register {
-    /// Overwrites the state at random, within its types: for a program's
-    /// [`starl_core::Program::corrupt`]. The names of registers stay, as they are part of the program.
+    /// Overwrites the state at random, within its types: for a program's [`starl_core::Program::corrupt`]. The names of
+    /// registers do not change, because they are part of the program.
     pub fn corrupt(&mut self, random: &mut Random) {
         for copy in self.replica.all_mut() {
             if random.chance(0.5) {

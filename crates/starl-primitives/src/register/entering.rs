@@ -44,7 +44,7 @@ pub(super) enum Heard {
         life: u64,
         /// Its copies up to this register have come.
         after: Option<String>,
-        /// All that is wanted of it in this stage has come.
+        /// Everything that is wanted of it in this stage has come.
         is_done: bool,
     },
 }
@@ -86,8 +86,7 @@ impl Entering {
         self.life.is_none() || self.new_before.get(&peer) == Some(&incarnation)
     }
 
-    /// Whether this stage has come to its end; of `others` participants and this one so many are a
-    /// majority.
+    /// Whether this stage has ended; `majority` of `others` participants and this one are a majority.
     pub fn is_over(&self, others: usize, majority: usize, has_waited: bool) -> bool {
         let (mut up, mut new, mut unfinished) = (0, 0, 0);
         for (&peer, heard) in &self.heard {

@@ -1,6 +1,6 @@
-//! How copies that missed a write are repaired: robots announce what their copies amount to, rarely while
-//! nothing changes, and compare them where they differ (the rhythm is that of [`crate::shared_memory`], the
-//! Trickle algorithm; the comparison is by lists, since registers are few).
+//! How copies that missed a write are repaired: robots announce a hash of their copies, rarely while nothing changes,
+//! and compare the copies if they differ (the rhythm is that of [`crate::shared_memory`], the Trickle algorithm; the
+//! comparison is by lists, since registers are few).
 //!
 //! Operations do not need this. It lets [`Register::known`] show written values, also on robots that are not
 //! participants.
@@ -43,7 +43,7 @@ impl Register {
         }
     }
 
-    /// Takes note that a copy changes now.
+    /// Records that a copy changes now.
     pub(super) fn note_change(&mut self, robot: &mut Robot<'_>) {
         let (shortest, _) = self.options.intervals();
         if self.gossip.interval > shortest {
@@ -72,7 +72,7 @@ impl Register {
         self.begin_interval(robot, next.max(shortest).min(longest));
     }
 
-    /// Takes what another robot says of its copies.
+    /// Handles another robot's announcement of its copies.
     pub(super) fn gossip(&mut self, robot: &mut Robot<'_>, from: RobotId, content: Content) {
         match content {
             Content::Announcement(theirs) if theirs == self.replica.fingerprint() => {
@@ -159,7 +159,7 @@ impl Register {
         self.options.longest_datagram.saturating_sub(FRAME_BYTES)
     }
 
-    /// Sets right what only a corruption leaves behind.
+    /// Corrects a state that only a corruption can cause.
     fn set_right(&mut self, robot: &mut Robot<'_>) {
         self.replica.refresh();
         let (fleet, participants) = (robot.fleet(), self.participants.as_ref());

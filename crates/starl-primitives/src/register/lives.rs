@@ -1,8 +1,7 @@
-//! Crash vectors: which life each robot is in, as far as is known.
+//! Crash vectors: the known life of each robot.
 //!
-//! Invariant: a robot answers others only in a life whose number is greater than those of all lives in which
-//! it answered before. So where one robot has heard of a later life, what was said in an earlier one is
-//! known to be forgotten.
+//! Invariant: a robot answers others only in a life whose number is greater than those of all lives in which it
+//! answered before. So once a robot has heard of a later life, it knows that messages of an earlier one are forgotten.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -25,14 +24,14 @@ impl Lives {
         self.0.get(&robot).copied().unwrap_or(FIRST)
     }
 
-    /// Takes note of a life.
+    /// Records a life.
     pub fn learn(&mut self, robot: RobotId, life: u64) {
         if life > self.of(robot) && life <= GREATEST {
             self.0.insert(robot, life);
         }
     }
 
-    /// Stands for all, and for a robot's own life.
+    /// A hash of all lives, including the robot's own.
     pub fn fingerprint(&self, own: u64) -> u64 {
         let words = self
             .0
@@ -41,7 +40,7 @@ impl Lives {
         hash_key(own, &words.collect::<Vec<u64>>())
     }
 
-    /// All that are not the first.
+    /// All lives except first ones.
     pub fn list(&self) -> Vec<(RobotId, u64)> {
         self.0.iter().map(|(&robot, &life)| (robot, life)).collect()
     }

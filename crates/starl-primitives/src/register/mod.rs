@@ -1,41 +1,40 @@
 //! Linearizable registers by majority quorum.
 //!
-//! The algorithm is that of Attiya, Bar-Noy and Dolev (1995, "Sharing Memory Robustly in Message-Passing
-//! Systems") for many writers (Lynch and Shvartsman 1997, "Robust Emulation of Shared Memory Using Dynamic
-//! Quorum-Acknowledged Broadcasts"). Each participant keeps a copy of each register with a [`Tag`]. A read
-//! asks for the copies of a majority, has the latest of them stored by a majority, and then gives it; the
-//! second part is left out where the majority agrees. A write asks a majority for their tags, and has its
-//! value stored by a majority under a greater one.
+//! The algorithm is that of Attiya, Bar-Noy and Dolev (1995, "Sharing Memory Robustly in Message-Passing Systems") for
+//! many writers (Lynch and Shvartsman 1997, "Robust Emulation of Shared Memory Using Dynamic Quorum-Acknowledged
+//! Broadcasts"). Each participant keeps a copy of each register with a [`Tag`]. A read asks for the copies of a
+//! majority, has the latest of them stored by a majority, and then returns it; the second part is omitted if the
+//! majority agrees. A write asks a majority for their tags, and has its value stored by a majority under a greater one.
 //!
 //! A register can also be claimed, to read and write it as one step ([`Register::claim`],
 //! [`Register::write_claimed`]; the module `claiming`).
 //!
-//! Without storage, a robot that starts again has lost its copies, and what it acknowledged before must not
-//! count any more. It answers nothing until it has the copies of a majority of all from the others (the module
-//! `recovery`), and answers of its earlier lives are told apart by crash vectors (Michael, Ports, Sharma,
-//! Szekeres 2017, "Recovering Shared Objects Without Stable Storage"; a nonce alone, as in Viewstamped
-//! Replication Revisited, does not do, as they show). With storage, it goes on where it was (the module `saving`).
+//! Without storage, a restarted robot has lost its copies, and its earlier acknowledgements must no longer count. It
+//! answers nothing until it has the copies of a majority from the others (the module `recovery`), and answers of its
+//! earlier lives are identified by crash vectors (Michael, Ports, Sharma, Szekeres 2017, "Recovering Shared Objects
+//! Without Stable Storage"; a nonce alone, as in Viewstamped Replication Revisited, does not do, as they show). With
+//! storage, it continues where it was (the module `saving`).
 //!
 //! Properties, for robots that name the same participants:
 //! - linearizability: each operation takes effect at one moment between its call and its end, whatever the network
 //!   does. This holds as long as at no time a majority of the participants has forgotten, that is, is down or
 //!   recovering without storage, or has lost it. If that happens the remaining robots block rather than forget, unless
-//!   no robot that is heard has anything left;
-//! - no lost update: what is written to a claimed register takes the place of what the claim has read, or is
-//!   told as lost, under the same condition; no clock, lock or suspicion matters;
+//!   no robot that is heard has any state left;
+//! - no lost update: a write to a claimed register replaces the value that the claim has read, or is reported as lost,
+//!   under the same condition, independent of clocks, locks and suspicions;
 //! - progress: an operation ends if a majority is up and can be reached;
 //! - failures are visible: otherwise [`Status::NoQuorum`] is returned, and the operation continues to try
 //!   until it is done or withdrawn.
 //!
-//! An operation that was withdrawn, or whose robot has crashed, may still take effect later; of an update that
-//! is so before the next one of its register is done.
+//! An operation that was withdrawn, or whose robot has crashed, may still take effect later; an update only until the
+//! next one of its register is done.
 //!
-//! Messages among n participants: 2(n - 1) for a read where all agree, for a claim and for what writes it; else 4(n - 1); the
-//! n - 1 questions being one datagram to all. Copies that missed a write are repaired in the background
-//! (the module `gossip`), so that [`Register::known`] comes to show it.
+//! Messages among n participants: 2(n - 1) for a read if all agree, for a claim and for its write; else 4(n - 1). The
+//! n - 1 questions are one datagram to all. Copies that missed a write are repaired in the background (the module
+//! `gossip`), so that [`Register::known`] eventually shows it.
 //!
-//! Self-stabilising: whatever copies, tags and lives a corruption leaves behind, once a write is done all
-//! later reads of its register give it or a later one.
+//! Self-stabilising: whatever copies, tags and lives a corruption leaves behind, once a write is done all later reads
+//! of its register return it or a later one.
 
 mod answering;
 mod asking;
@@ -78,11 +77,11 @@ use starl_core::{
 
 timers! {
     enum Alarm {
-        /// An operation is to be asked about again, by its number.
+        /// The questions of an operation must be repeated, by its number.
         Operation(u32),
-        /// A robot that has restarted is to ask again how to enter.
+        /// A restarted robot must repeat its recovery questions.
         Enter,
-        /// The registers are to be announced.
+        /// The registers must be announced.
         Gossip,
     }
 }
@@ -90,7 +89,7 @@ timers! {
 /// Longer names of registers are refused, bytes.
 const LONGEST_NAME: usize = 255;
 
-/// So many results are kept for the program to look at.
+/// The number of results that are kept for the program.
 const MOST_RESULTS: usize = 256;
 
 /// Registers, any number by name, that all robots read and write as if there were one of each. See the
@@ -129,8 +128,8 @@ pub struct OperationId(u32);
 pub enum Status {
     /// It is under way.
     Pending,
-    /// It is under way, but no majority has answered for [`Options::patience`], or so many participants
-    /// are suspected that none can. It goes on trying: [`Register::withdraw`] ends it.
+    /// It is pending, but no majority has answered for [`Options::patience`], or too many participants are suspected.
+    /// It continues to try: [`Register::withdraw`] ends it.
     NoQuorum,
     /// It has taken effect. The value read, none if nothing was ever written; or the value written.
     Done(Option<Payload>),
@@ -140,7 +139,7 @@ pub enum Status {
     /// It has ended because the register was claimed. It may take effect or not. Of [`Register::write`]: a
     /// register that is claimed should be written no other way.
     Refused,
-    /// It was withdrawn, or was never begun, or ended so long ago that its result is forgotten.
+    /// It was withdrawn, never begun, or ended so long ago that its result was dropped.
     Unknown,
 }
 
@@ -153,7 +152,7 @@ pub enum OperationError {
     ValueTooLong,
     /// [`Options::most_operations`] are under way already.
     TooMany,
-    /// This robot claims the register already, or writes what it has claimed.
+    /// This robot already claims the register, or writes it after a claim.
     UnderWay,
     /// The register was not claimed, or has been written since.
     NotClaimed,
@@ -174,9 +173,9 @@ impl fmt::Display for OperationError {
 impl core::error::Error for OperationError {}
 
 impl Register {
-    /// An instance; those of the same name on all robots are one set of registers. `participants` keep the
-    /// copies: all of the fleet, if none are given. They must be the same for all robots and stay so; others
-    /// may read and write too.
+    /// An instance; those of the same name on all robots are one set of registers. `participants` keep the copies: all
+    /// of the fleet, if none are given. They must be the same on all robots and must not change; other robots may read
+    /// and write too.
     pub fn new(name: &str, participants: Option<BTreeSet<RobotId>>, options: Options) -> Register {
         Register {
             port: Port::named(name),
@@ -210,8 +209,8 @@ impl Register {
         }
     }
 
-    /// The value of this robot's own copy, without asking others: a written value, but possibly not the
-    /// latest; none if this robot knows of no write.
+    /// The value of this robot's own copy, without asking others: a written value, but possibly not the latest; none if
+    /// this robot does not know a write.
     pub fn known(&self, register: &str) -> Option<&[u8]> {
         self.replica.get(register)?.value.as_deref()
     }
@@ -226,7 +225,7 @@ impl Register {
         self.operations.len()
     }
 
-    /// Whether an operation is under way that cannot go on as far as this robot knows.
+    /// Whether a pending operation cannot continue, as far as this robot knows.
     pub fn failed(&self) -> bool {
         self.operations.values().any(|operation| operation.is_stuck)
     }
@@ -251,7 +250,7 @@ impl Register {
         }
     }
 
-    /// So many are a majority.
+    /// The size of a majority.
     fn majority(&self, robot: &Robot<'_>) -> usize {
         let members = self.participants.as_ref().map(BTreeSet::len);
         members.unwrap_or(robot.fleet().len()) / 2 + 1

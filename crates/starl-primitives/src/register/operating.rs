@@ -13,7 +13,7 @@ impl Register {
     /// Begins to read a register.
     ///
     /// # Errors
-    /// Where the name is too long, or too much is under way.
+    /// If the name is too long, or too much is under way.
     pub fn read(
         &mut self,
         robot: &mut Robot<'_>,
@@ -27,11 +27,11 @@ impl Register {
         Ok(id)
     }
 
-    /// Begins to write a register, whatever it holds. A register that is ever claimed should be written by
-    /// [`Register::write_claimed`] only.
+    /// Begins a write that does not depend on the register's value. A register that is also claimed should be written
+    /// by [`Register::write_claimed`] only.
     ///
     /// # Errors
-    /// Where the name or the value is too long, or too much is under way.
+    /// The name or the value is too long, or there are too many operations.
     pub fn write(
         &mut self,
         robot: &mut Robot<'_>,

@@ -18,7 +18,7 @@ pub(super) struct Operation {
     pub refused: BTreeSet<RobotId>,
     /// The greatest ballot or tag that was heard of.
     pub greatest: Option<Tag>,
-    /// The latest copy that was found; in the last phase what is to be stored.
+    /// The latest copy that was found; in the last phase the copy to store.
     pub latest: Option<Version>,
     /// When it began, by the robot's own clock.
     pub begun: Time,
@@ -28,7 +28,7 @@ pub(super) struct Operation {
     pub rounds: u32,
     /// Whether it is refused and waits before it asks under a greater ballot.
     pub is_backing_off: bool,
-    /// The greatest ballot that was let go first.
+    /// The greatest ballot that was abandoned before.
     pub let_go: Option<Tag>,
     /// Whether no majority seems to answer.
     pub is_stuck: bool,
@@ -68,19 +68,19 @@ pub(super) enum Phase {
     Query,
     /// A majority is asked for its copies, and to promise a ballot.
     Claim(Tag),
-    /// A majority is to store one.
+    /// A majority must store a copy.
     Store,
 }
 
 impl Operation {
-    /// Takes note of what a participant has.
+    /// Records a participant's copy.
     pub fn found(&mut self, version: Option<Version>) {
         if version > self.latest {
             self.latest = version;
         }
     }
 
-    /// Takes note of a ballot or tag, so that the next ballot is greater.
+    /// Records a ballot or tag, so that the next ballot is greater.
     pub fn heard(&mut self, tag: Option<Tag>) {
         // One that no writes can have led to would leave no greater ones.
         self.greatest = self.greatest.max(tag.filter(|tag| tag.is_valid()));
@@ -93,7 +93,7 @@ impl Operation {
         answers.all(|answer| answer.is_firm && answer.tag == latest)
     }
 
-    /// Goes on to another phase.
+    /// Changes to another phase.
     pub fn enter(&mut self, phase: Phase) {
         self.phase = phase;
         self.answers.clear();

@@ -5,15 +5,14 @@ use starl_core::Duration;
 /// Settings of [`super::Register`]; all robots should have the same. Times run on the robot's own clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// A question is repeated after this time to those that have not answered; best a few times the
-    /// network's delay. Default 250 ms.
+    /// A question is repeated after this time to robots that have not answered; use a few times the network's delay.
+    /// Default 250 ms.
     pub first_timeout: Duration,
     /// The time between repetitions doubles up to this. Default 2 s.
     pub longest_timeout: Duration,
     /// An operation for which no majority has answered for this long says so. Default 3 s.
     pub patience: Duration,
-    /// When all that are heard have just started, a robot waits this long for one that has not. Default
-    /// 1 s.
+    /// If all robots that are heard have just started, a robot waits this long for one that has not. Default 1 s.
     pub grace: Duration,
     /// After a change copies are compared within this time. Default 500 ms.
     pub shortest_interval: Duration,

@@ -14,7 +14,7 @@ pub(super) struct Datagram {
     pub incarnation: u32,
     /// The life in which the sender answers; 0 if it does not yet.
     pub life: u64,
-    /// The latest lives that the sender knows of, those after the first.
+    /// The latest lives known to the sender, except first ones.
     pub lives: Vec<(RobotId, u64)>,
     pub content: Content,
 }
@@ -83,7 +83,7 @@ pub(super) enum Content {
     Wanted(Vec<String>),
 }
 
-/// Names a question among all that its robot ever asks.
+/// Identifies a question among all questions of its robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct QuestionId {
     /// Drawn when the robot started.
@@ -118,7 +118,7 @@ pub(super) struct PageEntry {
 }
 
 impl Entry {
-    /// So many bytes it takes at most, by the varints' greatest lengths.
+    /// The greatest size in bytes, with varints of the greatest length.
     pub fn bytes(&self) -> usize {
         5 + self.register.len() + self.version.bytes()
     }

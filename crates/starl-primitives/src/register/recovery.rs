@@ -1,8 +1,8 @@
-//! How a robot that has just started comes to answer others.
+//! How a robot that has just started becomes able to answer others.
 //!
-//! It cannot know whether it ran before, so it asks. In the first stage it learns the number of its last
-//! life from others, in the second it tells them that of its new one, one greater, and gets their copies. A
-//! stage ends when it has heard
+//! It cannot know whether it ran before, so it asks. In the first stage it learns the number of its last life from
+//! others; in the second it sends them the number of its new life, one greater, and gets their copies. A stage ends
+//! when it has heard
 //! - a majority of all participants, among the others, that are up: one of them has each value that a majority had
 //!   stored or promised, and robots that count this robot's acknowledgements from an earlier life hear of its new
 //!   one from one of them; or
@@ -61,7 +61,7 @@ impl Register {
         incarnation == Some(id.incarnation) && entering.stages == id.number
     }
 
-    /// Another robot tells whether it is up, and the number of this robot's last life.
+    /// Another robot reports whether it is up, and the number of this robot's last life.
     pub(super) fn told(
         &mut self,
         robot: &mut Robot<'_>,

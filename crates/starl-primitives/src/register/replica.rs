@@ -1,7 +1,7 @@
-//! One robot's copies of the registers, and what it has promised about them.
+//! One robot's copies of the registers, and its promises about them.
 //!
-//! Invariant: the tag of a copy and what is promised only rise. Copies of equal tags hold equal values, unless
-//! a corruption changed one; then the greater value is kept, by all alike.
+//! Invariant: the tag of a copy and the promised ballot only grow. Copies of equal tags hold equal values, unless a
+//! corruption changed one; then the greater value is kept, by all alike.
 
 use super::packet::{Entry, Page, PageEntry};
 use super::tag::Tag;
@@ -44,7 +44,7 @@ impl Replica {
         self.copies.get(register)?.promised
     }
 
-    /// Takes in a copy unless the present one is later or there is no room; whether it changed anything.
+    /// Merges a copy unless the present one is later or there is no room; returns whether anything changed.
     pub fn merge(&mut self, entry: &Entry, most: usize) -> bool {
         let Some(copy) = self.copy_mut(&entry.register, most) else {
             return false;
@@ -104,7 +104,7 @@ impl Replica {
         })
     }
 
-    /// As many copies after a register, with what is promised, as fit so many bytes, but at least one.
+    /// The copies after a register with their promises, as many as fit into `room` bytes, but at least one.
     pub fn page(&self, after: Option<String>, room: usize) -> Page {
         let mut entries = Vec::new();
         let mut room = room;
@@ -130,8 +130,7 @@ impl Replica {
         }
     }
 
-    /// The tags of the registers after one, as many as fit so many bytes; and the last of them, none if
-    /// there are no more.
+    /// The tags of the registers after one, as many as fit; and the last of them, none if there are no more.
     pub fn tags_after(
         &self,
         after: Option<&str>,
@@ -178,7 +177,7 @@ impl Replica {
         later.map(|(name, copy)| (&**name, copy))
     }
 
-    /// Stands for all copies.
+    /// A hash of all copies.
     pub fn fingerprint(&self) -> u64 {
         let copies = self.copies.iter();
         let copies = copies.filter_map(|(name, copy)| Some((name, copy.version.as_ref()?)));

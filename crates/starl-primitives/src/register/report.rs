@@ -13,7 +13,7 @@ pub(super) fn operation(id: OperationId, register: &str) -> Operation {
     }
 }
 
-/// Stands for a value in events.
+/// The hash of a value in events.
 pub(super) fn value_hash(value: &Payload) -> i64 {
     let mut digest = Digest::default();
     digest.bytes(value);

@@ -46,7 +46,7 @@ impl Register {
         self.report_up(robot, life);
     }
 
-    /// Saves what has changed.
+    /// Saves changes.
     pub(super) fn save_changes(&mut self, robot: &mut Robot<'_>) {
         let Standing::Up(life) = self.standing else {
             return;

@@ -1,6 +1,6 @@
 //! A participant's answers, and the spread of copies and lives.
 //!
-//! Invariant: only a participant that is up answers, and what it has acknowledged it has.
+//! Invariant: only a participant that is up answers, and it has everything that it has acknowledged.
 
 use super::entering::Standing;
 use super::packet::{Content, Datagram, Entry, PageEntry};
@@ -69,8 +69,8 @@ impl Register {
         self.send(robot, Destination::Robot(from), answer);
     }
 
-    /// Promises a ballot; gives what was promised before. If it does not, gives the greater ballot that is
-    /// promised, if that is why.
+    /// Promises a ballot and returns the earlier promise. Otherwise returns the greater promised ballot, if that is the
+    /// reason.
     pub(super) fn promise(
         &mut self,
         register: &str,
@@ -85,7 +85,7 @@ impl Register {
         }
     }
 
-    /// Stores a copy, so that it can be acknowledged. If it does not, gives what is promised, if that is why.
+    /// Stores a copy, so that it can be acknowledged. Otherwise returns the promised ballot, if that is the reason.
     pub(super) fn store(
         &mut self,
         robot: &mut Robot<'_>,
@@ -105,7 +105,7 @@ impl Register {
         }
     }
 
-    /// Takes over what another participant has and has promised.
+    /// Merges the copies and promises of another participant.
     pub(super) fn take_over(&mut self, robot: &mut Robot<'_>, entry: PageEntry) {
         let PageEntry {
             register,
@@ -121,7 +121,7 @@ impl Register {
         }
     }
 
-    /// Takes in a copy.
+    /// Merges a copy.
     pub(super) fn merge(&mut self, robot: &mut Robot<'_>, entry: &Entry) {
         let length = entry.version.value.as_ref().map_or(0, |value| value.len());
         let is_ours = entry.version.is_valid()
@@ -132,7 +132,7 @@ impl Register {
         }
     }
 
-    /// Takes note of the lives that a datagram tells of.
+    /// Learns the lives in a datagram.
     pub(super) fn learn_lives(
         &mut self,
         robot: &mut Robot<'_>,
@@ -145,7 +145,7 @@ impl Register {
                 self.lives.learn(who, life);
             }
         }
-        // A life of this robot's that never came to answer, or a corruption, has gone further.
+        // An earlier incarnation of this robot that never answered, or a corruption, has a greater number.
         let latest = self.lives.of(robot.id());
         if let Standing::Up(life) = &mut self.standing
             && *life < latest

@@ -29,7 +29,7 @@ impl Default for Tag {
 }
 
 impl Tag {
-    /// It takes at most so many, by the varints' greatest lengths.
+    /// Its greatest size in bytes, with varints of the greatest length.
     pub(super) const BYTES: usize = 10 + 5 + 5;
 
     /// Whether writes can have led to it.
@@ -37,7 +37,7 @@ impl Tag {
         self.count <= GREATEST
     }
 
-    /// One that is so much greater.
+    /// A tag that is greater by this count.
     pub(super) fn later_by(mut self, counts: u32) -> Tag {
         self.count = (self.count + u64::from(counts)).min(GREATEST);
         self

@@ -8,7 +8,7 @@ use starl_core::{Payload, RobotId};
 /// The content of a register at one time.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) struct Version {
-    /// Which write it comes from; or, of a claimed register, which ballot.
+    /// The tag of its write; for a claimed register the ballot.
     pub tag: Tag,
     /// None where nothing was written.
     pub value: Option<Payload>,
@@ -26,7 +26,7 @@ impl Version {
         }
     }
 
-    /// So many bytes it takes at most, by the varints' greatest lengths.
+    /// The greatest size in bytes, with varints of the greatest length.
     pub fn bytes(&self) -> usize {
         let value = self.value.as_ref().map_or(0, |value| value.len());
         Tag::BYTES + 6 + value + 5 + self.writers.len() * (5 + Tag::BYTES)

@@ -98,7 +98,7 @@ impl Registration {
         self.open(robot, self.options.settle);
     }
 
-    /// A robot has gone on to a later list.
+    /// A robot has changed to a later list.
     pub(super) fn refused(
         &mut self,
         robot: &mut Robot<'_>,
@@ -112,7 +112,7 @@ impl Registration {
         let concerns = |view: &View| view.id == id && view.roll.contains_key(&from);
         match &self.stage {
             Stage::Proposed { view, .. } if concerns(view) => {
-                // Two that compute lists at once do not go on at once.
+                // Two that compute lists at once do not continue at once.
                 let wait = self.options.settle.seconds() * robot.random().uniform();
                 self.open(robot, Duration::from_seconds_f64(wait));
             }
@@ -163,7 +163,7 @@ impl Registration {
         }
     }
 
-    /// There is no list for now; another one may be computed after this time.
+    /// There is no list now; another may be computed after this time.
     pub(super) fn open(&mut self, robot: &mut Robot<'_>, wait: Duration) {
         let had_list = self.members().is_some();
         self.stage = Stage::Open;

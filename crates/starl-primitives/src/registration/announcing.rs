@@ -81,7 +81,7 @@ impl Registration {
         self.set(robot, Alarm::Announcement, after);
     }
 
-    /// From a list to none, or back: announcements come often again.
+    /// A list was gained or lost: announcements become frequent again.
     pub(super) fn begin_announcing(&mut self, robot: &mut Robot<'_>, soon: bool) {
         if let Some(own) = &mut self.own {
             own.announcements = 0;
@@ -230,7 +230,7 @@ impl Registration {
         }
     }
 
-    /// Hears of the time of a list.
+    /// Learns the time of a list.
     pub(super) fn hear_time(&mut self, time: Time) {
         if time <= LATEST {
             self.latest = self.latest.max(time);

@@ -6,9 +6,8 @@ use alloc::collections::BTreeSet;
 use starl_core::{Random, RobotId, Time};
 
 impl Registration {
-    /// Overwrites the state at random, within its types: for a program's
-    /// [`starl_core::Program::corrupt`]. Whether the robot takes part stays, as that is what its program
-    /// last asked for.
+    /// Overwrites the state at random, within its types: for a program's [`starl_core::Program::corrupt`]. The robot's
+    /// participation does not change, because it is its program's last request.
     pub fn corrupt(&mut self, random: &mut Random) {
         if let Some(own) = &mut self.own {
             own.ticket = random.bits();

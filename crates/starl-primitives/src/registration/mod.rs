@@ -60,7 +60,7 @@ use starl_core::event::RegistrationEvent;
 use starl_core::random::hash_key;
 use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
 
-/// Times beyond this, 146 years, are no times of ours.
+/// Times beyond this, 146 years, are not valid.
 const LATEST: Time = Time(u64::MAX >> 2);
 
 /// Agreement on the participants. See the [module](self).
@@ -96,9 +96,9 @@ pub struct Registration {
 
 timers! {
     enum Alarm {
-        /// Something is to be done for the agreement.
+        /// A step of the agreement is due.
         Agreement,
-        /// The robot is to announce itself again.
+        /// The robot must announce itself again.
         Announcement,
         /// There has been no list for long.
         Patience,
@@ -206,7 +206,7 @@ impl Registration {
         self.own.is_some()
     }
 
-    /// Whether this robot is registered and has had no list for [`Options::patience`]. It goes on trying.
+    /// Whether this robot is registered and has had no list for [`Options::patience`]. It continues to try.
     pub fn failed(&self) -> bool {
         self.failed
     }

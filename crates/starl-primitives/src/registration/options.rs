@@ -1,17 +1,17 @@
-//! How patiently robots come to agree, and what that promises.
+//! The timing of agreements, and the resulting guarantees.
 
 use starl_core::Duration;
 
 /// Settings of [`super::Registration`], the same on all robots. Times run on the robot's own clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Changes that come within this time are taken together, and the times of different lists are at
-    /// least this far apart (the thesis's d). Default 200 ms.
+    /// Changes within this time are combined, and the times of different lists are at least this far apart (the
+    /// thesis's d). Default 200 ms.
     pub settle: Duration,
-    /// A robot that has just registered listens for others this long before it makes a list itself; best
-    /// `settle` and a few times the network's delay. Default 400 ms.
+    /// A robot that has just registered listens for others this long before it makes a list itself; use `settle` plus a
+    /// few times the network's delay. Default 400 ms.
     pub gather: Duration,
-    /// The time until a retransmission; best a few times the network's delay. Default 250 ms.
+    /// The time until a retransmission; use a few times the network's delay. Default 250 ms.
     pub first_timeout: Duration,
     /// The time between repetitions doubles up to this. Default 2 s.
     pub longest_timeout: Duration,
@@ -24,7 +24,7 @@ pub struct Options {
     pub longest_interval: Duration,
     /// Without a list for this time, [`super::Registration::failed`] says so. Default 10 s.
     pub patience: Duration,
-    /// No list is longer than this; robots with greater numbers stay outside. Default 512.
+    /// The greatest length of a list; robots with greater numbers are left out. Default 512.
     pub most_members: u32,
 }
 
@@ -51,8 +51,8 @@ impl Options {
         doubled(first, repetition, self.longest_timeout)
     }
 
-    /// The time to the next announcement of a robot that has made so many since it last had a list, or of
-    /// one that shows the same list since so many.
+    /// The time to the next announcement of a robot that has made this number of announcements without a list, or with
+    /// the same list.
     pub(super) fn interval(&self, announcements: u32, shows: bool) -> Duration {
         let first = self.shortest_interval.max(Duration::from_millis(1));
         let longest = if shows {

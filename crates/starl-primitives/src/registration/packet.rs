@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use starl_core::event::agreement::ListId;
 use starl_core::{Area, Point, RobotId, Time};
 
-/// Names a list among all that are ever made: the later one is the greater.
+/// Identifies a list among all lists: later lists are greater.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ViewId {
     /// When it was computed, by the clock of the robot that did; later than every list that one of its

@@ -11,7 +11,7 @@ use starl_core::event::RegistrationEvent;
 use starl_core::{Destination, Duration, Robot, RobotId};
 
 impl Registration {
-    /// Computes a list, if there is to be another one and this robot is to do it.
+    /// Computes a list, if a new one is needed and this robot is the coordinator.
     pub(super) fn look(&mut self, robot: &mut Robot<'_>) {
         let Some(own) = &self.own else { return };
         let left = own.gathers_until.since(robot.now());

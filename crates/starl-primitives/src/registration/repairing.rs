@@ -5,8 +5,8 @@ use super::{LATEST, Registration, Stage};
 use starl_core::{Robot, Time};
 
 impl Registration {
-    /// Undoes what only a corruption of the state can have brought about: alarms that are not set, and a
-    /// promise of which no list could come.
+    /// Repairs states that only a corruption can cause: timers that are not armed, and a promise that cannot lead to a
+    /// list.
     pub(super) fn set_right(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         let longest = self

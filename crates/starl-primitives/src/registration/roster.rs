@@ -28,8 +28,7 @@ pub(super) struct Shunned {
 const MOST_DOUBLINGS: u32 = 4;
 
 impl Registration {
-    /// All that belong in the list, as far as this robot knows: itself, those in the list that there is,
-    /// and as many others as it may hold.
+    /// The robots for the list, as known to this robot: itself, those in the present list, and as many others as fit.
     pub(super) fn wanted(&self, robot: &Robot<'_>) -> Roll {
         let most = self.options.most_members.max(1) as usize;
         let mut wanted = Roll::new();
@@ -85,7 +84,7 @@ impl Registration {
         before.is_none_or(|before| before.ticket != ticket)
     }
 
-    /// Others say of robots that they take part. Gives whether that is news.
+    /// Others report participants. Returns whether this is new.
     pub(super) fn hear_of(&mut self, robot: &Robot<'_>, roll: &Roll) -> bool {
         let mut is_news = false;
         for (&peer, &ticket) in roll {
@@ -106,7 +105,7 @@ impl Registration {
         others.take(self.options.most_members as usize).collect()
     }
 
-    /// A robot takes part no longer, for all that is known.
+    /// A robot no longer participates, as far as known.
     pub(super) fn drop_peer(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
         self.peers.remove(&peer);
         for known in self.peers.values_mut() {
@@ -160,12 +159,12 @@ impl Registration {
         }
     }
 
-    /// Tells one robot, or all, that a registration of this one is over.
+    /// Informs one robot, or all, that a registration of this one is over.
     pub(super) fn deny(&self, robot: &mut Robot<'_>, to: Destination, ticket: u32) {
         robot.transmit(to, self.port, &Packet::Leave { ticket });
     }
 
-    /// Says that this robot has left, until it sees that the others know or has said so often enough.
+    /// Announces that this robot has left, until the others know it or it was announced often enough.
     pub(super) fn say_farewell(&mut self, robot: &mut Robot<'_>) {
         let Some(leaving) = &mut self.leaving else {
             return;

@@ -1,9 +1,9 @@
 //! A receiver's state of one stream of one sender: the current incarnation, and the messages taken of it.
 //!
-//! Lives are told apart by a [`Handshake`].
+//! Lives are distinguished by a [`Handshake`].
 //!
-//! Invariant: of an incarnation each message is handed out at most once, and memory is bounded by the
-//! window whatever arrives: what is further ahead is not taken, so that its sender tries it again.
+//! Invariant: each message of an incarnation is delivered at most once, and memory is bounded by the window: messages
+//! further ahead are not accepted, so that their sender sends them again.
 
 use super::runs::Runs;
 use crate::handshake::Handshake;
@@ -11,13 +11,13 @@ use alloc::collections::BTreeMap;
 use smallvec::SmallVec;
 use starl_core::{Payload, Time};
 
-/// Messages to hand out, by number.
+/// Messages to deliver, by number.
 pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
 
 /// The state of one stream.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inbox {
-    /// The incarnation that is heard, and what was taken of it.
+    /// The accepted incarnation, and its accepted messages.
     pub lives: Handshake<Sequence>,
     /// When the sender was last answered.
     pub answered: Option<Time>,
@@ -48,7 +48,7 @@ impl Inbox {
 /// Which messages of an incarnation have been taken.
 #[derive(Clone, Debug)]
 pub(super) struct Sequence {
-    /// Those that were handed out or will never come.
+    /// Those that were delivered or will never come.
     taken: Runs,
     /// Messages that wait for an earlier one.
     held: BTreeMap<u32, Payload>,
@@ -63,7 +63,7 @@ impl Sequence {
         }
     }
 
-    /// Takes a message as it comes.
+    /// Accepts a message in the order of arrival.
     pub fn take(&mut self, number: u32, content: Payload, window: u32, arrived: &mut Arrived) {
         if self.has_room(number, window) && !self.taken.contains(number) {
             self.taken.insert(number);
@@ -71,7 +71,7 @@ impl Sequence {
         }
     }
 
-    /// Takes a message in its sender's order: it is held until all before it have come.
+    /// Accepts a message in its sender's order: it is held until all before it have arrived.
     pub fn hold(&mut self, number: u32, content: Payload, window: u32, arrived: &mut Arrived) {
         if self.has_room(number, window) && !self.taken.contains(number) {
             self.held.insert(number, content);
@@ -88,7 +88,7 @@ impl Sequence {
         number - self.taken.next().min(number) < window.max(1)
     }
 
-    /// Nothing before `base` will come: releases what was held for it.
+    /// No message before `base` will arrive: releases the messages that waited for them.
     pub fn settle(&mut self, base: u32, arrived: &mut Arrived) {
         if base <= self.taken.next() {
             return;
@@ -99,7 +99,7 @@ impl Sequence {
         self.release(arrived);
     }
 
-    /// Hands out what waits for nothing.
+    /// Delivers the messages that wait for no other.
     fn release(&mut self, arrived: &mut Arrived) {
         while let Some(first) = self.held.first_entry()
             && *first.key() == self.taken.next()
@@ -130,7 +130,7 @@ impl Sequence {
 mod tests {
     use super::*;
 
-    /// Whether the first message of an incarnation is handed out.
+    /// Whether the first message of an incarnation is delivered.
     fn takes_first(sequence: Option<Sequence>, incarnation: u32) -> bool {
         // It answers the present token, if it is not heard already.
         let mut lives = Handshake::asking(3);

@@ -9,10 +9,10 @@ use starl_core::{Destination, Duration, Robot, RobotId, Time};
 /// Datagrams with several messages are not longer than this, bytes.
 pub(super) const CHUNK: usize = 1000;
 
-/// So many datagrams are sent again at once to a receiver that answers.
+/// The number of datagrams that are sent again at once to a receiver that answers.
 const BURST: usize = 4;
 
-/// So many robots at most are told that they need not answer.
+/// The greatest number of robots that are informed that they need not answer.
 const MOST_KNOWN: usize = 100;
 
 /// The common properties of all messages of a stream.
@@ -114,7 +114,7 @@ impl Line {
     }
 
     /// Sends a receiver a datagram of at most so many bytes, or one message, with messages that it lacks and that
-    /// were last sent when `is_due` says, the longest ago first. Gives them.
+    /// were last sent when `is_due` says, the longest ago first. Returns them.
     fn resend(
         &self,
         robot: &mut Robot<'_>,
@@ -163,8 +163,8 @@ impl Line {
         self.tell(&numbers, peer, notices);
     }
 
-    /// Sends a receiver again what was lost, as what it has shows: `newest` is when the latest of that was sent. Gives
-    /// when it is tried next, if it lacks anything.
+    /// Retransmits lost messages to a receiver, judged by those that it has: `newest` is the send time of the latest of
+    /// them. Returns the time of the next attempt, if messages are missing.
     pub fn recover(
         &self,
         robot: &mut Robot<'_>,
@@ -249,7 +249,7 @@ impl Line {
         now >= message.sent + self.options.patience(is_held)
     }
 
-    /// Gives up what is over and tries those again that are due. Gives when to do so next.
+    /// Gives up expired messages and retransmits due ones. Returns the time of the next call.
     pub fn look_after(
         &self,
         robot: &mut Robot<'_>,

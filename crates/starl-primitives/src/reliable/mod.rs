@@ -3,22 +3,19 @@
 //! receiver at most once, and either delivers it or reports the failure (thesis, section 3.3.1: "a
 //! simple protocol that asks for acknowledgment for each message being sent").
 //!
-//! A message to all goes out once to all. Each receiver says what it has taken, and is sent what it lacks, several
-//! messages in a datagram, until it has all or their time is up (`sending`). Invariants:
-//! - a receiver hands out a message at most once for as long as it runs, however often it is repeated and however
-//!   late its copies are;
-//! - messages of a sender's later life are taken after those of its earlier lives, and how many lives there were
-//!   does not matter: what tells them apart is a handshake, not memory (`inbox`);
-//! - every message is settled within [`Options::failure_bound`]: no robot waits for ever for a dead
-//!   robot;
-//! - memory is bounded by the settings and the size of the fleet, and a peer that never speaks costs
-//!   nothing.
+//! A message to all is sent once to all. Each receiver acknowledges the messages that it has, and is sent the missing
+//! ones, several in a datagram, until it has all or their time is over (`sending`). Invariants:
+//! - a receiver delivers a message at most once in each of its lives, however often it is repeated and however late its
+//!   copies are;
+//! - messages of a sender's later life are delivered after those of its earlier lives, for any number of lives: a
+//!   handshake distinguishes them, without memory of earlier ones (`inbox`);
+//! - every message is settled within [`Options::failure_bound`]: no robot waits for ever for a crashed robot;
+//! - memory is bounded by the settings and the size of the fleet, and a silent peer costs none.
 //!
-//! Guarantees are per incarnation: a receiver that restarts may be handed a message that it had taken
-//! before the crash, if its sender did not hear of it; and the first message of a life to a robot that has not heard of
-//! that life arrives only if its sender lives for two more of the network's delays. With
-//! [`Options::first_in_first_out`] the messages to all, and those to one robot, are each taken in order; not the
-//! ones relative to the others.
+//! Guarantees are per incarnation: a restarted receiver may deliver a message again that it had delivered before the
+//! crash, if its sender had no acknowledgement; and the first message of a life to a robot that has not heard of that
+//! life arrives only if its sender stays up for two more network delays. With [`Options::first_in_first_out`] the
+//! messages to all, and those to one robot, are each delivered in order, but not relative to each other.
 
 mod inbox;
 mod line;
@@ -47,7 +44,7 @@ timers! {
     pub(crate) enum Alarm {
         /// Receivers may have to be tried again.
         Resend,
-        /// Senders are to be told what has been taken.
+        /// Acknowledgements must be sent.
         Answer,
         /// The held messages of an ordered broadcast above the protocol must be checked.
         Look,
@@ -59,7 +56,7 @@ timers! {
 pub struct Reliable {
     port: Port,
     options: Options,
-    /// Whether robots that have never answered may be out of reach, and are no failures.
+    /// Whether robots that have never answered may be out of reach, and are not failures.
     is_local: bool,
     incarnation: Incarnation,
     /// The messages of this robot to all.
@@ -89,7 +86,7 @@ impl Reliable {
         }
     }
 
-    /// An end whose messages to all are for those in reach: robots that have never answered are no failures.
+    /// An endpoint whose messages to all are for robots in range: robots that have never answered are not failures.
     pub fn local(port: Port, options: Options) -> Reliable {
         Reliable {
             is_local: true,

@@ -79,8 +79,8 @@ pub enum Notice {
     },
     /// All receivers have acknowledged a message of this robot.
     Acknowledged(MessageId),
-    /// These receivers did not acknowledge a message of this robot within the retries. They may have
-    /// taken it all the same, if it was the acknowledgements that were lost.
+    /// These receivers did not acknowledge a message of this robot within the retries. They may still
+    /// have received it, if only the acknowledgements were lost.
     Failed {
         /// Which message.
         message: MessageId,

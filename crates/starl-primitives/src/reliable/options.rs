@@ -5,9 +5,9 @@ use starl_core::{Duration, Time, math};
 /// Settings of [`super::Reliable`]. Time-outs run on the robot's own clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// A receiver that does not say that it has taken a message is tried again after this time. Default
-    /// 250 ms, the original StarL's; best a little above the round trip. A receiver answers at most five times as
-    /// often, for all that came meanwhile.
+    /// A message without acknowledgement is retransmitted after this time. Default 250 ms, the original StarL's; use a
+    /// little more than the round trip. A receiver acknowledges at most five times as often, for all messages that
+    /// arrived meanwhile.
     pub first_timeout: Duration,
     /// Each further time-out is twice the one before, up to this. Default 2 s.
     pub longest_timeout: Duration,
@@ -23,8 +23,8 @@ pub struct Options {
     /// With more messages than this on their way the oldest is given up, and its failure reported. Default
     /// 4096.
     pub most_outstanding: u32,
-    /// A receiver takes messages up to so many after the first that it lacks; what is further ahead is sent
-    /// again when there is room. Default 256.
+    /// A receiver accepts messages up to this number after the first missing one; messages further ahead are sent again
+    /// when there is room. Default 256.
     pub window: u32,
 }
 
@@ -71,7 +71,7 @@ impl Options {
         self.patience(self.first_in_first_out) + slack
     }
 
-    /// For so long a message is tried that a receiver holds back or not.
+    /// The time for which a message is retransmitted, by whether a receiver holds it back.
     pub(super) fn patience(&self, is_held: bool) -> Duration {
         let timeout = self.longest_timeout.max(self.first_timeout);
         self.retry_span() + timeout * (2 * u64::from(is_held))

@@ -89,7 +89,7 @@ impl Receiver {
 pub(super) struct Credit {
     /// Messages that now all have taken.
     pub settled: Vec<u32>,
-    /// When the latest of those was sent that the receiver turned out to have.
+    /// The time at which the latest message was sent that the receiver is known to have.
     pub newest: Option<Time>,
 }
 
@@ -126,7 +126,7 @@ impl Outgoing {
         self.get(number).is_some_and(|message| message.waiting > 0)
     }
 
-    /// Adds a message for so many receivers; gives its number.
+    /// Adds a message for this number of receivers; returns its number.
     pub fn push(&mut self, content: Payload, sent: Time, waiting: u32) -> u32 {
         let number = self.next();
         self.messages.push_back(Message {

@@ -38,8 +38,8 @@ pub(super) enum Packet<C> {
     },
 }
 
-/// A sender numbers what it sends to all apart from what it sends to each robot, so that every
-/// receiver sees numbers without gaps.
+/// A sender numbers its messages to all separately from those to each robot, so that every receiver sees numbers
+/// without gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) enum Stream {
     /// To all.

@@ -1,4 +1,4 @@
-//! The receiver's half of the protocol: messages are taken once, and their sender is told.
+//! The receiver's half of the protocol: messages are delivered once and acknowledged.
 
 use super::inbox::{Arrived, Owed};
 use super::packet::{Packet, Stream};
@@ -6,7 +6,7 @@ use super::{Alarm, Arrival, Notice, Notices, Reliable};
 use alloc::vec::Vec;
 use starl_core::{Destination, Duration, Payload, Robot, RobotId, Time, TimerKey};
 
-/// So many runs of messages are told of at once.
+/// The number of runs of messages that one acknowledgement reports.
 const MOST_RUNS: usize = 24;
 
 /// How far a stream is, as its sender says.
@@ -84,8 +84,8 @@ impl Reliable {
         notices
     }
 
-    /// Asks a robot which of its messages to all may still come. The answer is a [`Notice::Settled`] with
-    /// the ticket that this gives, if it comes.
+    /// Asks a robot which of its messages to all may still come. The answer, if it arrives, is a [`Notice::Settled`]
+    /// with the returned ticket.
     pub fn ask(&mut self, robot: &mut Robot<'_>, peer: RobotId) -> u32 {
         let inbox = self.inboxes.entry((peer, Stream::Multicast)).or_default();
         inbox.lives.renew_token();
@@ -96,7 +96,7 @@ impl Reliable {
     }
 
     /// Answers a sender at once if it was not answered just now, else a little later: then one answer
-    /// stands for all that comes meanwhile.
+    /// stands for everything that comes meanwhile.
     fn answer_soon(&mut self, robot: &mut Robot<'_>, sender: (RobotId, Stream)) {
         let now = robot.now();
         let Some(inbox) = self.inboxes.get(&sender) else {
@@ -132,7 +132,7 @@ impl Reliable {
         robot.transmit(Destination::Robot(from), self.port, &packet);
     }
 
-    /// Answers those whose time has come.
+    /// Sends due acknowledgements.
     pub(super) fn answer_due(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.answer_at = None;

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// All numbers before one, and runs of later ones.
+/// A set of numbers: all below one, and runs of later ones.
 ///
 /// Invariant: the runs are in order, do not touch each other, and do not touch what is before them.
 #[derive(Clone, Debug)]
@@ -78,7 +78,7 @@ mod tests {
     use starl_core::Random;
 
     #[test]
-    fn runs_hold_what_a_plain_set_holds() {
+    fn runs_agree_with_a_plain_set() {
         let mut random = Random::keyed(1, &[]);
         for _ in 0..200 {
             let mut runs = Runs::before(1);

@@ -45,7 +45,7 @@ impl Reliable {
         (message, notices)
     }
 
-    /// A robot says what it has taken of a stream.
+    /// A robot acknowledges messages of a stream.
     pub(super) fn taken(
         &mut self,
         robot: &mut Robot<'_>,
@@ -76,7 +76,7 @@ impl Reliable {
         notices
     }
 
-    /// A robot does not know this incarnation: it is told, and sent what it lacks.
+    /// A robot does not know this incarnation: it gets an answer and the missing messages.
     pub(super) fn greeted(
         &mut self,
         robot: &mut Robot<'_>,
@@ -122,7 +122,7 @@ impl Reliable {
         }
     }
 
-    /// Looks after all that is on its way.
+    /// Retransmits due messages.
     pub(super) fn resend_due(&mut self, robot: &mut Robot<'_>) -> Notices {
         let incarnation = self.incarnation.of(robot);
         let mut notices = Notices::new();

@@ -1,16 +1,16 @@
-//! Causal variables: a robot shows no write before those that it may depend on.
+//! Causal variables: a robot shows a write after all writes that it may depend on.
 //!
 //! A write of a causal variable may depend on all writes of causal variables that its writer shows (Ahamad,
 //! Neiger, Burns, Kohli, Hutto 1995, "Causal Memory: Definitions, Implementation, and Programming"). It
 //! carries their stamps, and a receiver holds it back until it shows each of these writes or a later one of
 //! the same variable.
 //!
-//! Invariant: what an element that is shown depends on is covered by what is shown.
+//! Invariant: the dependencies of every shown element are covered by shown elements.
 //!
-//! Where ours differs from causal stores that send the nearest dependencies alone (Lloyd, Freedman, Kaminsky,
-//! Andersen 2011, "Don't Settle for Eventual: Scalable Causal Consistency for Wide-Area Storage with COPS"):
-//! here copies are compared, and a write that was overwritten is not delivered to all. One that depends on
-//! it would have no way to what the overwritten one depended on, so all dependencies are sent.
+//! Where ours differs from causal stores that send the nearest dependencies alone (Lloyd, Freedman, Kaminsky, Andersen
+//! 2011, "Don't Settle for Eventual: Scalable Causal Consistency for Wide-Area Storage with COPS"): here copies are
+//! compared, and a write that was overwritten is not delivered to all. A write that depends on it would lack the
+//! dependencies of the overwritten one, so all dependencies are sent.
 
 use super::SharedMemory;
 use super::packet::{Dependency, Write};
@@ -21,7 +21,7 @@ use alloc::vec::Vec;
 use starl_core::Robot;
 use starl_core::event::SharedMemoryEvent;
 
-/// The writes that came before what they depend on, by the keys of their elements: the latest of each.
+/// The writes that arrived before their dependencies, by the keys of their elements: the latest of each.
 pub(super) type Held = BTreeMap<u64, Write>;
 
 impl Store {
@@ -57,7 +57,7 @@ impl SharedMemory {
         }
     }
 
-    /// Holds a write back if it comes before what it depends on; otherwise gives it back.
+    /// Holds a write back if a dependency is missing; otherwise returns it.
     pub(super) fn hold(&mut self, write: Write) -> Option<Write> {
         let depends = write.depends.as_deref().unwrap_or_default();
         if self.store.covers(depends) {
@@ -70,7 +70,7 @@ impl SharedMemory {
         let owner = write.single_writer.then_some(write.stamp.writer);
         let key = key(&write.variable, owner);
         let order = |write: &Write| -> (Stamp, usize) {
-            // Of two copies of a write the one with fewer dependencies is the one that was set right.
+            // Of two copies of a write the one with fewer dependencies is the corrected one.
             let count = write.depends.as_ref().map_or(0, Vec::len);
             (write.stamp, usize::MAX - count)
         };
@@ -82,8 +82,8 @@ impl SharedMemory {
         None
     }
 
-    /// The writes that were held back and need not be any longer. They are to be shown together: two of them
-    /// may depend on each other, where one is later than what the other was made to depend on.
+    /// The held writes whose dependencies are now complete. They must be shown together: two of them may depend on each
+    /// other, if one is later than the other's dependency.
     pub(super) fn take_released(&mut self) -> Vec<Write> {
         let held = self.held.iter();
         let mut ready: BTreeMap<u64, Stamp> =

@@ -1,10 +1,10 @@
-//! Finding what two memories do not share, by the fingerprints of ever smaller ranges of keys (the
-//! search of Merkle trees, here over fingerprints that are computed when asked for; Meyer 2022,
-//! "Range-Based Set Reconciliation").
+//! Finds the differences of two memories, by the fingerprints of smaller and smaller ranges of keys (the search of
+//! Merkle trees, here over fingerprints that are computed when asked for; Meyer 2022, "Range-Based Set
+//! Reconciliation").
 //!
-//! Each robot answers a part that it is sent with the parts of it in which its own memory differs, down
-//! to lists; and a list with what it has that is newer, sent to all, and with the keys of which it
-//! lacks the newest. No state is kept between the steps: any step may be lost, repeated or reordered.
+//! Each robot answers a part with the subparts in which its own memory differs, down to lists. It answers a list with
+//! its newer elements, sent to all, and with the keys for which it lacks the newest. No state is kept between the
+//! steps: any step may be lost, repeated or reordered.
 
 use super::packet::{Item, Part, Range};
 use super::store::{Element, Store, fingerprint};

@@ -8,8 +8,8 @@ use starl_core::{Duration, Payload, Random, RobotId, Time};
 const LONGEST_VALUE: u32 = 40;
 
 impl SharedMemory {
-    /// Overwrites the memory's state at random, within its types: for a program's
-    /// [`starl_core::Program::corrupt`]. The names of variables stay, as they are part of the program.
+    /// Overwrites the memory's state at random, within its types: for a program's [`starl_core::Program::corrupt`]. The
+    /// names of variables do not change, because they are part of the program.
     pub fn corrupt(&mut self, random: &mut Random) {
         for element in self.store.all_mut() {
             if random.chance(0.5) {

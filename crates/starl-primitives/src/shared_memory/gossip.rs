@@ -2,10 +2,9 @@
 //! Self-Regulating Algorithm for Code Propagation and Maintenance in Wireless Sensor Networks"; RFC
 //! 6206).
 //!
-//! A robot announces its memory at a random moment in the second half of an interval, unless it has
-//! heard several equal ones announced meanwhile. Intervals double up to the longest, and fall back to
-//! the shortest when memories differ. So what is said while nothing changes does not grow with the
-//! number of robots that hear each other.
+//! A robot announces its memory at a random moment in the second half of an interval, unless it has heard several equal
+//! ones announced meanwhile. Intervals double up to the longest, and fall back to the shortest when memories differ. So
+//! the traffic while nothing changes does not grow with the number of robots in range of each other.
 //!
 //! Where ours differs: the next interval begins with the announcement, not with the end of this one.
 

@@ -1,22 +1,20 @@
 //! Shared memory: variables that all robots read and write (thesis, section 3.3.2).
 //!
-//! A multi-writer variable has one value, which any robot writes. A single-writer array has one element
-//! for each robot, which that robot alone writes. Both come into being with the first write. Every robot
-//! reads its own copy, so reading and writing never wait; a write goes to all at once, and what gets lost
-//! is repaired by comparing copies (anti-entropy: Demers et al. 1987, "Epidemic Algorithms for Replicated
-//! Database Maintenance").
+//! A multi-writer variable has one value, which any robot writes. A single-writer array has one element for each robot,
+//! which that robot alone writes. Both exist from the first write on. Every robot reads its own copy, so reading and
+//! writing never wait; a write is sent to all, and losses are repaired by comparing copies (anti-entropy: Demers et al.
+//! 1987, "Epidemic Algorithms for Replicated Database Maintenance").
 //!
 //! Properties:
-//! - eventual consistency: of the writes to a variable the one with the greatest [`Stamp`] wins. Robots
-//!   that are up and linked, directly or through others, to one that has it come to show it;
-//! - a write whose writer knew of another write wins over it, however wrong the clocks are. Of two
-//!   writers that do not know of each other's writes the one with the later clock wins, then the one
-//!   with the greater number;
-//! - a robot shows only values that were written, or the initial one, and for one variable never goes
-//!   back to an earlier stamp for as long as it runs;
+//! - eventual consistency: of the writes to a variable the one with the greatest [`Stamp`] wins. Robots that are up and
+//!   connected, directly or through others, to one that has it eventually show it;
+//! - a write whose writer knew another write wins over it, however wrong the clocks are. Of two writers that do not
+//!   know each other's writes the one with the later clock wins, then the one with the greater number;
+//! - a robot shows only values that were written, or the initial one, and never goes back to an earlier stamp of a
+//!   variable while it runs;
 //! - a robot that shows a write of a [causal](SharedMemory::make_causal) variable shows all writes of causal
 //!   variables that the writer showed then, or later ones;
-//! - after any corruption of memories all this holds again for what is written later.
+//! - after any corruption of memories all this holds again for later writes.
 //!
 //! The value of a variable may be lost permanently only together with all robots that have it. Then a robot
 //! with a causal write that depends on it, and not shown yet, shows it only when the lost one is written
@@ -54,7 +52,7 @@ timers! {
     enum Alarm {
         /// New writes must be sent; any input does this.
         Flush,
-        /// The memory is to be announced.
+        /// The memory must be announced.
         Gossip,
         /// The missing elements of other robots must be sent again.
         Repair,
@@ -64,11 +62,11 @@ timers! {
 /// Longer names of variables are refused, bytes.
 const LONGEST_NAME: usize = 255;
 
-/// Variables shared by all robots. One instance holds any number of them, and sends what is written in
-/// one activation together.
+/// Variables shared by all robots. One instance holds any number of them, and sends all writes of one activation
+/// together.
 ///
-/// A structure whose parts belong together is one value. The thesis's attributes, which are written each
-/// for itself, are variables of their own, e.g. `position.x`.
+/// A structure whose parts belong together is one value. The thesis's attributes, which are written separately, are
+/// separate variables, e.g. `position.x`.
 #[derive(Clone, Debug)]
 pub struct SharedMemory {
     port: Port,
@@ -185,19 +183,19 @@ impl SharedMemory {
         Some(written.or_else(|| self.initial_elements.get(variable))?)
     }
 
-    /// The elements of a single-writer array that are known to have been written, in the order of the
-    /// robots' numbers. Those of robots that have left the fleet stay.
+    /// The known elements of a single-writer array, in the order of the robots' numbers. Elements of robots that have
+    /// left the fleet remain.
     pub fn all(&self, variable: &str) -> impl Iterator<Item = (RobotId, &[u8])> {
         let elements = self.store.array(variable);
         elements.map(|(owner, element)| (owner, &element.value[..]))
     }
 
-    /// The stamp of what [`SharedMemory::read`] shows; none before any write.
+    /// The stamp of the value of [`SharedMemory::read`]; none before any write.
     pub fn stamp(&self, variable: &str) -> Option<Stamp> {
         Some(self.store.get(variable, None)?.stamp)
     }
 
-    /// The stamp of what [`SharedMemory::read_of`] shows; none before any write.
+    /// The stamp of the value of [`SharedMemory::read_of`]; none before any write.
     pub fn stamp_of(&self, variable: &str, owner: RobotId) -> Option<Stamp> {
         Some(self.store.get(variable, Some(owner))?.stamp)
     }

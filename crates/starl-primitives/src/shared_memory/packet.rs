@@ -26,7 +26,7 @@ pub(super) enum Content {
     Comparison(Vec<Part>),
     /// To one: send me what you have under these keys.
     Wanted(Vec<u64>),
-    /// To all: elements of causal variables to merge, with what they depend on.
+    /// To all: elements of causal variables to merge, with their dependencies.
     Causal(Vec<(Write, Vec<Dependency>)>),
 }
 

@@ -90,7 +90,7 @@ impl SharedMemory {
         }
     }
 
-    /// Takes note of another memory.
+    /// Records another memory.
     fn heard(&mut self, robot: &mut Robot<'_>, from: RobotId, theirs: Announcement) {
         let is_equal = theirs.fingerprint == self.store.fingerprint()
             && theirs.elements == self.store.len() as u32;

@@ -63,8 +63,7 @@ impl SharedMemory {
         }
     }
 
-    /// Announces the memory, if not enough others have announced the same; goes on to compare it with
-    /// one that differs.
+    /// Announces the memory, unless enough others have announced the same; starts the comparison with one that differs.
     pub(super) fn announce(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.store.refresh(now);
@@ -84,7 +83,7 @@ impl SharedMemory {
         robot.set_timer(self.timer(Alarm::Gossip), after);
     }
 
-    /// Sends some of what others lack.
+    /// Sends some elements that others lack.
     pub(super) fn repair(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.repair_due = None;
@@ -124,7 +123,7 @@ impl SharedMemory {
         }
     }
 
-    /// Takes note that the memory changes now.
+    /// Records that the memory changes now.
     pub(super) fn note_change(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         let was_quiet = now.since(self.changed) >= self.options.quiet();
@@ -146,7 +145,7 @@ impl SharedMemory {
         }
     }
 
-    /// Asks another robot for what it has under these keys.
+    /// Asks another robot for its elements under these keys.
     pub(super) fn send_wanted(&self, robot: &mut Robot<'_>, to: RobotId, keys: Vec<u64>) {
         let mut keys = keys.into_iter().peekable();
         for _ in 0..MOST_ANSWERS {
@@ -163,7 +162,7 @@ impl SharedMemory {
         robot.set_timer(self.timer(Alarm::Gossip), after);
     }
 
-    /// Whether nothing has changed for so long that no write should be on its way.
+    /// Whether the last change is so long ago that no write should be in transit.
     pub(super) fn is_settled(&self, robot: &Robot<'_>) -> bool {
         self.changed <= robot.now() - self.options.settling()
     }

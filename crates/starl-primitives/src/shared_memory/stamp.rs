@@ -1,22 +1,20 @@
-//! When a write took place: hybrid logical clocks (Kulkarni, Demirbas, Madappa, Avva, Leone 2014,
-//! "Logical Physical Clocks and Consistent Snapshots in Globally Distributed Databases").
+//! The time of a write: hybrid logical clocks (Kulkarni, Demirbas, Madappa, Avva, Leone 2014, "Logical Physical Clocks
+//! and Consistent Snapshots in Globally Distributed Databases").
 //!
-//! A clock shows the robot's own time, or the latest time that it has heard of if that is later, and
-//! counts what happens while that stands still. Invariants: a robot's readings only rise; and they lie
-//! above every reading that has reached it (Lamport 1978), so a write by a robot that knows of another
-//! write is always the later one, however wrong the clocks are. A clock is ahead of its robot's time
-//! by no more than the fleet's clocks differ, so where they agree stamps are times.
+//! A clock shows the robot's own time, or the latest time that it has heard of if that is later, and counts events
+//! while that time does not advance. Invariants: a robot's readings only grow; and they are greater than every reading
+//! that has reached it (Lamport 1978), so a write by a robot that knows of another write is always the later one,
+//! however wrong the clocks are. A clock is ahead of its robot's time by no more than the fleet's clocks differ, so
+//! where they agree stamps are times.
 //!
-//! Where ours differs: receiving does not count, as nothing is stamped by it; and a reading has an upper
-//! end that is the same for all robots, rather than a bound on how far it may lie ahead of the
-//! receiver's own time. A bound that each robot takes by its own clock would have some robots take a
-//! write that others refuse, for good.
+//! Where ours differs: receiving does not count, because it creates no stamp; and readings have an upper limit that is
+//! the same for all robots, instead of a bound on their distance from the receiver's own time. With a bound by each
+//! robot's own clock, some robots would accept a write that others reject permanently.
 
 use serde::{Deserialize, Serialize};
 use starl_core::{RobotId, Time};
 
-/// No clock shows a later time: 146 years. A robot's own time beyond this counts as this, and the count
-/// alone goes on.
+/// The latest time of any clock: 146 years. A robot's own time beyond this counts as this, and only the count grows.
 pub(super) const LATEST: Time = Time(u64::MAX >> 2);
 
 /// Orders the writes: the greatest wins.
@@ -28,8 +26,8 @@ pub struct Stamp {
     pub count: u32,
     /// The writer; decides between writes at equal readings of two clocks.
     pub writer: RobotId,
-    /// In which of its lives. A robot that starts again may be told of a reading that it had already, and go
-    /// on from there as it did before: no stamp is used twice for all that.
+    /// Its life. A restarted robot may hear a reading that it had already used, and continue from there as before; the
+    /// life keeps its stamps unique.
     pub incarnation: u32,
 }
 
@@ -76,7 +74,7 @@ impl HybridClock {
         *self
     }
 
-    /// Takes note of another clock's reading.
+    /// Records another clock's reading.
     pub fn observe(&mut self, other: HybridClock) {
         if other.is_valid() {
             *self = (*self).max(other);

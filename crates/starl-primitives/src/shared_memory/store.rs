@@ -55,7 +55,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Stands for address, stamp and value in fingerprints.
+    /// The hash of address, stamp and value for fingerprints.
     pub fn hash(&self) -> u64 {
         let mut digest = Digest::default();
         digest.word(self.key);
@@ -91,7 +91,7 @@ pub(super) enum Merged {
     /// It would win over what this robot wrote since it started, but is by this robot itself, so it is
     /// an earlier write, from before it started. The memory is as before.
     FromEarlierLife,
-    /// There is no room for it.
+    /// The memory is full.
     Refused,
 }
 
@@ -194,7 +194,7 @@ impl Store {
         &mut self.fingerprint
     }
 
-    /// Takes in what came from another robot; gives the key.
+    /// Merges a write from another robot; returns the key.
     pub fn merge(&mut self, write: Write, me: RobotId, now: Time, most: usize) -> (u64, Merged) {
         let owner = write.single_writer.then_some(write.stamp.writer);
         let key = key(&write.variable, owner);
@@ -218,7 +218,7 @@ impl Store {
         (key, Merged::Applied)
     }
 
-    /// Sets an element, whatever was there.
+    /// Sets an element, replacing any other.
     pub fn put(&mut self, element: Element) {
         self.fingerprint = self.fingerprint.wrapping_add(element.hash());
         let key = element.key;

@@ -15,7 +15,7 @@ fn cross(world: &mut World, robots: &[usize]) {
 }
 
 #[test]
-fn a_late_question_of_an_earlier_life_is_no_arrival() {
+fn a_late_question_of_an_earlier_life_is_not_an_arrival() {
     let make = Crosser::boxed(None, None);
     let mut world = World::new(4, 1, Wire::perfect(), None, make);
     let mut crashes = Vec::new();
@@ -67,7 +67,7 @@ fn a_late_question_of_an_earlier_life_is_no_arrival() {
 }
 
 #[test]
-fn a_late_copy_from_before_all_forgot_is_no_arrival() {
+fn a_late_copy_from_before_a_total_restart_is_not_an_arrival() {
     let make = Crosser::boxed(None, None);
     let mut world = World::new(3, 1, Wire::perfect(), None, make);
     let mut crashes = Vec::new();

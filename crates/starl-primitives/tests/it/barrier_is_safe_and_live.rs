@@ -159,7 +159,7 @@ fn late_joiners_are_waited_for() {
 }
 
 #[test]
-fn waiting_for_a_dead_robot_is_reported_and_ends_when_it_returns() {
+fn waiting_for_a_crashed_robot_is_reported_and_ends_when_it_returns() {
     for crashes_first in [true, false] {
         let mut world = idle(3, 1, Wire::perfect());
         for robot in 0..3 {
@@ -188,7 +188,7 @@ fn waiting_for_a_dead_robot_is_reported_and_ends_when_it_returns() {
     }
 }
 
-/// Those that wait for a dead robot repeat their questions, and do not answer each other's again and again.
+/// Those that wait for a crashed robot repeat their questions, and do not answer each other's again and again.
 #[test]
 fn robots_that_do_not_know_fall_silent() {
     let mut world = idle(6, 1, Wire::perfect());

@@ -1,5 +1,4 @@
-//! Whatever arrives from the network at a barrier, nothing panics, memory stays bounded, and robots cross
-//! again afterwards.
+//! With any bytes from the network a barrier does not panic, memory stays bounded, and robots cross again afterwards.
 
 use crate::harness::crosser::{Crosser, barrier, crosser};
 use crate::harness::{Wire, World};

@@ -1,5 +1,5 @@
-//! In causal order a message is handed out after all that comes before it, whatever happens; what will
-//! not come is passed over, and that is on record.
+//! In causal order a message is delivered after all its predecessors, under all faults; messages that will not arrive
+//! are passed over, and this is recorded.
 
 use crate::harness::teller::{
     Teller, causal_violation, is_fifo, runs, sequences, tell, teller, trouble,
@@ -17,7 +17,7 @@ fn world(robots: usize, seed: u64, wire: Wire, count: u32) -> World {
 }
 
 #[test]
-fn all_are_handed_all_messages_after_what_comes_before_them() {
+fn all_deliver_all_messages_after_their_predecessors() {
     for seed in 0..60 {
         for wire in [Wire::perfect(), Wire::bad()] {
             for robots in [2, 3, 5] {
@@ -52,7 +52,7 @@ fn the_order_is_kept_under_crashes_and_partitions() {
         sequences(&all, seed);
         assert_eq!(causal_violation(&all), None, "seed {seed}");
         passed_over += world.events("pass_over").len();
-        // It goes on when all are well.
+        // It continues when all are well.
         for robot in 0..robots {
             world.command(robot, tell(1007));
         }
@@ -75,7 +75,8 @@ fn an_unordered_broadcast_breaks_it() {
     assert_eq!(broken.count(), 20);
 }
 
-/// Robot 0 tells robot 1, which tells robot 2 of it; robot 2 does not hear robot 0, and what it is told is on its way.
+/// Robot 0 tells robot 1, which tells robot 2 of it; robot 2 does not hear robot 0, and the message to it is on its
+/// way.
 fn hearsay_begins(seed: u64) -> World {
     let mut world = world(3, seed, Wire::perfect(), 0);
     for robot in 0..3 {
@@ -89,7 +90,7 @@ fn hearsay_begins(seed: u64) -> World {
     world
 }
 
-/// The same, and robot 2 was told.
+/// The same, after robot 2 has received the message.
 fn hearsay(seed: u64) -> World {
     let mut world = hearsay_begins(seed);
     world.run_for(Duration::from_seconds(1));
@@ -112,7 +113,7 @@ fn a_message_waits_for_the_one_before_it() {
 }
 
 #[test]
-fn a_message_that_will_not_come_is_passed_over_and_never_handed_out() {
+fn a_lost_message_is_passed_over_and_never_delivered() {
     let mut world = hearsay(2);
     world.crash(0);
     world.run_for(Duration::from_seconds(10));
@@ -131,7 +132,7 @@ fn a_message_that_will_not_come_is_passed_over_and_never_handed_out() {
 }
 
 #[test]
-fn a_message_of_an_earlier_life_that_was_held_back_counts_when_it_is_handed_out() {
+fn a_held_message_of_an_earlier_life_counts_when_it_is_delivered() {
     // Robot 2 holds back what robot 1 says, as it does not hear what robot 0 has said before.
     let mut world = hearsay_begins(6);
     world.run_for(Duration::from_millis(100));
@@ -148,7 +149,7 @@ fn a_message_of_an_earlier_life_that_was_held_back_counts_when_it_is_handed_out(
 }
 
 #[test]
-fn the_program_is_told_of_what_it_misses() {
+fn the_program_is_notified_of_missed_messages() {
     let mut world = hearsay(4);
     world.crash(0);
     world.run_for(Duration::from_seconds(10));

@@ -1,5 +1,4 @@
-//! Whatever arrives, and however much is sent, a broadcast in any order keeps little; and garbage does no
-//! harm.
+//! The memory of a broadcast in any order is bounded, for any traffic; and garbage does no harm.
 
 use crate::harness::teller::{Teller, tell, teller};
 use crate::harness::{Wire, World};
@@ -11,7 +10,7 @@ fn size(world: &World, robot: usize) -> usize {
 }
 
 #[test]
-fn memory_does_not_grow_with_what_was_sent() {
+fn memory_does_not_grow_with_the_number_of_messages() {
     for order in [Order::Causal, Order::Total] {
         let make = Teller::boxed(order, 0, 0.0);
         let mut world = World::new(3, 1, Wire::perfect(), None, make);
@@ -22,7 +21,7 @@ fn memory_does_not_grow_with_what_was_sent() {
                 world.command(value as usize % 3, tell(value));
                 world.run_for(Duration::from_millis(5));
             }
-            // One is down for good.
+            // One is down permanently.
             if round == 0 {
                 world.crash(2);
             }
@@ -51,7 +50,7 @@ fn sizes_under_churn(span: Duration, seed: u64) -> Vec<usize> {
         let largest = (0..5).map(|robot| size(&world, robot)).max();
         let tenth = at * 10 / steps;
         sizes[tenth] = sizes[tenth].max(largest.unwrap_or(0));
-        // So much at once that groups die now and then.
+        // Such a load that groups die now and then.
         for robot in (0..5).filter(|robot| (at + robot) % 3 == 0 && at % 2 == 0) {
             world.crash(robot);
             world.run_for(Duration::from_millis(300));

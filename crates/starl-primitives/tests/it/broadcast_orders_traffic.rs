@@ -1,4 +1,4 @@
-//! How many datagrams a broadcast takes in each order, against what its algorithm needs.
+//! The number of datagrams of a broadcast in each order, compared with the need of its algorithm.
 
 use crate::harness::teller::{Teller, tell};
 use crate::harness::{Wire, World};
@@ -27,7 +27,7 @@ fn datagrams(order: Order, robots: usize) -> f64 {
 }
 
 #[test]
-fn a_broadcast_takes_what_its_algorithm_needs() {
+fn a_broadcast_needs_the_datagrams_of_its_algorithm() {
     for robots in [3, 5, 10, 30, 100] {
         let n = robots as f64;
         let count = |order| datagrams(order, robots);
@@ -37,7 +37,7 @@ fn a_broadcast_takes_what_its_algorithm_needs() {
         for few in &all[..3] {
             assert!((few - n).abs() < 0.3, "{robots}: {all:?}");
         }
-        // To the leader; from it to all; acknowledgements; and to all that it is decided. Beats bring
+        // To the leader; from it to all; acknowledgements; and the decision to all. Beats bring
         // some of it along, or are sent besides.
         assert!((all[3] - (n + 2.0)).abs() < 0.2 * n, "{robots}: {all:?}");
     }

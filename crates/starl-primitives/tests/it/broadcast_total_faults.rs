@@ -36,7 +36,7 @@ fn handed(world: &World, robot: u32) -> Vec<Id> {
 }
 
 #[test]
-fn the_sender_is_handed_its_own_message_at_its_place() {
+fn the_sender_delivers_its_own_message_in_order() {
     for seed in 0..20 {
         let mut world = world(3, seed);
         for value in 0..20 {
@@ -51,7 +51,7 @@ fn the_sender_is_handed_its_own_message_at_its_place() {
 }
 
 #[test]
-fn it_goes_on_without_its_leader() {
+fn it_continues_without_its_leader() {
     for seed in 0..50 {
         let mut world = world(3, seed);
         let dead = leader(&world);
@@ -76,7 +76,7 @@ fn it_goes_on_without_its_leader() {
 }
 
 #[test]
-fn a_minority_is_handed_nothing_and_says_so_until_the_fleet_is_one_again() {
+fn a_minority_delivers_nothing_and_reports_it_until_the_partition_heals() {
     for seed in 0..20 {
         let mut world = world(5, seed);
         let minority = [leader(&world) as u32, (leader(&world) as u32 + 1) % 5];
@@ -107,7 +107,7 @@ fn a_minority_is_handed_nothing_and_says_so_until_the_fleet_is_one_again() {
 }
 
 #[test]
-fn what_cannot_be_ordered_fails_in_the_end() {
+fn messages_that_cannot_be_ordered_fail_in_the_end() {
     let mut world = world(3, 1);
     cut_off(&mut world, &[0], 3);
     world.command(0, tell(1));
@@ -141,7 +141,7 @@ fn a_robot_that_was_away_catches_up() {
 }
 
 #[test]
-fn a_robot_that_was_away_for_too_long_is_told_of_the_gap() {
+fn a_robot_that_was_away_for_too_long_gets_a_gap() {
     let messages = 3500; // more than a minute
     let world = absence(messages);
     assert_eq!(handed(&world, 0).len(), messages as usize + 1);

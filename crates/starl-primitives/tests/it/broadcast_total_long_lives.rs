@@ -72,7 +72,7 @@ fn any_robots_restart() {
 }
 
 #[test]
-fn copies_come_ten_seconds_late() {
+fn copies_arrive_ten_seconds_late() {
     for robots in [3, 5] {
         for seed in 0..4 {
             let late = (0.3, Duration::from_seconds(10));

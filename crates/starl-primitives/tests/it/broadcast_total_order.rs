@@ -1,5 +1,5 @@
-//! In total order all robots are handed the same messages in the same order, whatever happens; and all
-//! messages of those that have a majority, if the network lets anything through.
+//! In total order all robots deliver the same messages in the same order, under all faults; and all messages of robots
+//! in a majority, unless the network loses everything.
 
 use crate::harness::teller::{Teller, runs, sequences, tell, teller, total_violation, trouble};
 use crate::harness::{Wire, World};
@@ -14,7 +14,7 @@ fn world(robots: usize, seed: u64, wire: Wire, count: u32) -> World {
 }
 
 #[test]
-fn all_are_handed_all_messages_in_one_order() {
+fn all_deliver_all_messages_in_one_order() {
     for seed in 0..60 {
         for wire in [Wire::perfect(), Wire::bad()] {
             for robots in [1, 2, 3, 5] {
@@ -51,7 +51,7 @@ fn the_order_is_one_under_crashes_and_partitions() {
         let runs = runs(&world, &starts);
         sequences(&runs, seed);
         assert_eq!(total_violation(&runs), None, "seed {seed}");
-        // It goes on when all are well.
+        // It continues when all are well.
         let before = world.records.len();
         for robot in 0..robots {
             assert!(

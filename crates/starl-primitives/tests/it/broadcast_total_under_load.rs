@@ -33,7 +33,7 @@ fn load(world: &mut World, span: Duration) {
     }
 }
 
-/// When each message was sent, and when it had been handed to all.
+/// When each message was sent, and when all had delivered it.
 struct Times {
     sent: BTreeMap<Id, Time>,
     all: BTreeMap<Id, Time>,
@@ -68,8 +68,8 @@ impl Times {
         }
     }
 
-    /// The time until all had been handed a message: the median and the longest of those that were sent
-    /// between these, seconds. All have been handed it.
+    /// The time until all had delivered a message: the median and the longest of those that were sent
+    /// between these, seconds. All have delivered it.
     fn latency(&self, from: Time, to: Time) -> (f64, f64) {
         let of_then = self.sent.iter().filter(|(_, at)| (from..to).contains(*at));
         let latency = of_then.map(|(id, at)| match self.all.get(id) {

@@ -1,5 +1,5 @@
-//! Broadcasts at many messages a second, for long, through partitions and restarts, with copies that come seconds
-//! late: what is promised holds, and what piles up is cleared within a few round trips.
+//! Broadcasts at many messages a second, for long, through partitions and restarts, with copies that arrive seconds
+//! late: the guarantees hold, and backlogs are cleared within a few round trips.
 
 use crate::harness::teller::{Teller, causal_violation, is_fifo, runs, sequences};
 use crate::harness::{Wire, World, int, robot};
@@ -32,7 +32,7 @@ fn fleet(order: Order, robots: usize, seed: u64, wire: Wire, count: u32, period:
     )
 }
 
-/// Nothing is handed out twice or out of order.
+/// Nothing is delivered twice or out of order.
 fn judge(world: &World, order: Order, starts: &[(Time, u32)], seed: u64) -> usize {
     let runs = runs(world, starts);
     let all = sequences(&runs, seed);
@@ -155,7 +155,7 @@ fn ten_robots_at_a_hundred_messages_a_second_are_heard_at_line_rate_over_a_fifth
         };
         let mut world = fleet(order, 10, 1, wire, 400, 10);
         world.run_for(Duration::from_seconds(4));
-        // All that was sent until a second ago.
+        // Everything that was sent until a second ago.
         let until = world.now - Duration::from_seconds(1);
         assert_eq!(missed(&world, 10, Time::ZERO, until), [], "{order:?}");
         world.run_for(Duration::from_seconds(9));

@@ -1,5 +1,5 @@
-//! No robot waits for ever for a dead robot: a bounded number of copies, a bounded time, and then a
-//! failure that names it. Live robots are served meanwhile.
+//! No robot waits for ever for a crashed robot: a bounded number of copies, a bounded time, and then a failure that
+//! names it. Live robots are served meanwhile.
 
 use crate::harness::talker::{Talker, broadcast, geocast, unicast};
 use crate::harness::{Wire, World, int};
@@ -8,7 +8,7 @@ use starl_core::{Duration, RobotId, Time};
 use starl_primitives::reliable::Options;
 
 #[test]
-fn the_failure_comes_within_its_bound_and_names_the_dead() {
+fn the_failure_is_reported_within_its_bound_and_names_the_crashed_robots() {
     for in_order in [false, true] {
         for seed in 0..20 {
             let options = Options {

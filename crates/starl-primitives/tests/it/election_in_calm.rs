@@ -1,4 +1,4 @@
-//! Where nothing goes wrong, all robots come to show the same leader, and keep it.
+//! Without faults, all robots show the same leader and keep it.
 
 use crate::harness::elector::{ALGORITHMS, ELECT, Elector, RESIGN, agreed, by, election, judge};
 use crate::harness::{Wire, World};

@@ -69,7 +69,7 @@ fn by_bully_if_all_begin() {
 
 /// One robot asks for the vote of the others, all of them give it, and it says that it leads.
 #[test]
-fn by_leases_if_one_stands() {
+fn by_leases_with_one_candidate() {
     for count in COUNTS {
         let mut world = idle(count, Algorithm::Leases);
         world.run_for(SECOND * 5);

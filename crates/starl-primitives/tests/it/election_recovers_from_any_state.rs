@@ -1,5 +1,5 @@
-//! From an arbitrary state of all robots elections come to work again, within a time that is measured here and
-//! given in the reference.
+//! From an arbitrary state of all robots elections recover, within a time that is measured here and stated in the
+//! reference.
 
 use crate::harness::elector::{ALGORITHMS, Elector, agreed, by, judge};
 use crate::harness::{self, Wire, World};

@@ -1,4 +1,4 @@
-//! A leader that fails is replaced within a bound, one that comes back is told, and so are late joiners.
+//! A failed leader is replaced within a bound; a leader that returns, and robots that join late, learn the new leader.
 
 use crate::harness::elector::{ALGORITHMS, Elector, agreed, by, election, judge};
 use crate::harness::{Wire, World};
@@ -88,7 +88,7 @@ fn a_leader_that_has_forgotten_that_it_leads_does_no_harm() {
 }
 
 #[test]
-fn late_joiners_are_told_and_do_not_disturb() {
+fn late_joiners_learn_the_leader_and_do_not_disturb() {
     for algorithm in ALGORITHMS {
         for seed in 0..50 {
             let mut world = agreeing(3, seed, algorithm, Wire::perfect());
@@ -143,7 +143,7 @@ fn with_leases_a_robot_that_restarts_votes_only_after_a_lease() {
 /// Of three robots one is down and one has restarted: the promises of the one that is down are unknown, so
 /// there is no leader until it returns. Waiting is the only safe behaviour.
 #[test]
-fn with_leases_there_is_no_leader_where_too_few_remember() {
+fn with_leases_there_is_no_leader_if_too_few_robots_have_memory() {
     let mut world = agreeing(3, 1, Algorithm::Leases, Wire::perfect());
     let leader = agreed(&world, &[0, 1, 2]).expect("a leader") as usize;
     let (other, third) = ((leader + 1) % 3, (leader + 2) % 3);

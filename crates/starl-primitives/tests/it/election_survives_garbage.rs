@@ -1,5 +1,5 @@
-//! Whatever arrives: robots go on electing, epochs keep one leader, and no more memory is used than the fleet is
-//! large.
+//! With any bytes from the network: robots continue to elect, epochs have one leader, and memory is bounded by the size
+//! of the fleet.
 
 use crate::harness::elector::{ALGORITHMS, Elector, agreed, by, election, judge};
 use crate::harness::{Wire, World};

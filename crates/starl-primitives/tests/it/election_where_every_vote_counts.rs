@@ -1,5 +1,4 @@
-//! Where so many robots are down that each of the others has to vote for the same one, they do not stand against
-//! each other for ever.
+//! If so many robots are down that all others must vote for the same candidate, they do not compete for ever.
 
 use crate::harness::elector::{Elector, agreed, by};
 use crate::harness::{Wire, World};

@@ -1,5 +1,5 @@
-//! A robot that stays down comes to be suspected by all that are up, and by no other primitive's doing;
-//! one that comes back is trusted again, and a restart never passes unnoticed.
+//! A robot that stays down is eventually suspected by all robots that are up, without help of another primitive; one
+//! that returns is trusted again, and every restart is detected.
 
 use crate::harness::watcher::{Watcher, suspected, told, watcher};
 use crate::harness::{Wire, World};
@@ -13,7 +13,7 @@ fn world(count: usize, seed: u64, wire: Wire) -> World {
 }
 
 #[test]
-fn a_crashed_robot_is_suspected_within_what_is_promised() {
+fn a_crashed_robot_is_suspected_within_the_bound() {
     for seed in 0..20 {
         for wire in [Wire::perfect(), Wire::bad()] {
             let longest_delay = wire.longest_delay();
@@ -63,7 +63,7 @@ fn a_robot_that_was_never_heard_is_suspected_in_time() {
 }
 
 #[test]
-fn a_robot_that_comes_back_is_trusted_again() {
+fn a_robot_that_returns_is_trusted_again() {
     for seed in 0..20 {
         let mut world = world(3, seed, Wire::perfect());
         world.run_for(SECOND * 20);
@@ -82,7 +82,7 @@ fn a_robot_that_comes_back_is_trusted_again() {
 }
 
 #[test]
-fn the_shortest_restart_is_told() {
+fn the_shortest_restart_is_detected() {
     for seed in 0..20 {
         let mut world = world(3, seed, Wire::perfect());
         world.run_for(SECOND * 20);

@@ -1,4 +1,4 @@
-//! However much is sent, lost and repeated, and whatever else arrives, a robot keeps little.
+//! A robot's memory is bounded, for any number of sent, lost and repeated messages, and with garbage.
 
 use starl_core::effect::Effects;
 use starl_core::motion::{Body, Obstacles, Workspace};
@@ -94,7 +94,7 @@ fn gaps_and_messages_held_back_are_limited() {
             let (_, sent) = with(0, &mut random, |robot| {
                 sender.send(robot, RobotId(1), content)
             });
-            // Every other datagram is lost for good.
+            // Every other datagram is lost permanently.
             if number % 2 == 1 {
                 let input = message(0, sent[0].clone());
                 let (notices, _) = with(1, &mut random, |robot| receiver.handle(robot, &input));

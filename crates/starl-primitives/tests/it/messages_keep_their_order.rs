@@ -1,5 +1,5 @@
-//! In FIFO order a receiver takes each sender's messages as they were sent, and a message that will
-//! never come does not block those after it.
+//! In FIFO order a receiver delivers each sender's messages in the order of sending, and a message that never arrives
+//! does not block those after it.
 
 use crate::harness::talker::{Talker, broadcast, unicast};
 use crate::harness::{self, Wire, World};
@@ -17,7 +17,7 @@ const FIFO: Options = Options {
 };
 
 #[test]
-fn each_senders_messages_come_in_its_order() {
+fn each_senders_messages_are_delivered_in_order() {
     let mut unordered_runs = 0;
     for seed in 0..40 {
         for options in [

@@ -1,5 +1,5 @@
-//! Whatever robots of the fleet send, a mutex does not panic, takes bounded room, and goes on once they send
-//! sense again.
+//! With any messages from robots of the fleet, a mutex does not panic, uses bounded memory, and continues when they
+//! send valid messages again.
 
 use crate::harness::locker::{ALGORITHMS, Locker, entries, mutex};
 use crate::harness::{Wire, World};
@@ -25,7 +25,7 @@ fn garbage(sent: &[Payload], random: &mut Random) -> Vec<u8> {
 }
 
 #[test]
-fn after_garbage_it_goes_on() {
+fn after_garbage_it_continues() {
     for (algorithm, seed) in ALGORITHMS
         .into_iter()
         .flat_map(|a| (0..30).map(move |s| (a, s)))
@@ -44,7 +44,7 @@ fn after_garbage_it_goes_on() {
             sent.extend(world.payloads_from(read));
             read = world.records.len();
             let message = Message {
-                // The last is no robot of the fleet.
+                // The last is not a robot of the fleet.
                 from: RobotId(random.below(5)),
                 port: Port::named("lock"),
                 payload: garbage(&sent, &mut random).into(),

@@ -1,5 +1,5 @@
-//! No resource is held by two robots at once, whatever the network does; and every robot gets what it
-//! asks for again and again.
+//! No resource is held by two robots at once, whatever the network does; and every request of a robot is eventually
+//! granted.
 
 use crate::harness::locker::{
     ALGORITHMS, Locker, RESOURCES, acquire, entries, mutex, release, set,
@@ -15,7 +15,7 @@ fn busy(algorithm: Algorithm, count: usize, seed: u64, wire: Wire) -> World {
     World::new(count, seed, wire, PERIOD, Locker::boxed(algorithm, true))
 }
 
-/// Robots that do what they are told, once they can.
+/// Robots that follow their orders, once they can.
 fn calm(algorithm: Algorithm, count: usize) -> World {
     let boxed = Locker::boxed(algorithm, false);
     let mut world = World::new(count, 1, Wire::perfect(), PERIOD, boxed);
@@ -89,7 +89,7 @@ fn robots_may_join_late() {
 }
 
 #[test]
-fn what_is_asked_for_first_is_given_first() {
+fn earlier_requests_are_granted_first() {
     for algorithm in ALGORITHMS {
         let mut world = calm(algorithm, 3);
         world.command(0, acquire(&["a", "b"]));
@@ -137,7 +137,7 @@ fn disjoint_requests_do_not_wait_for_each_other() {
 }
 
 #[test]
-fn a_request_that_waits_for_a_dead_robot_says_so_and_goes_on_when_it_is_back() {
+fn a_request_reports_that_it_waits_for_a_crashed_robot_and_continues_after_its_return() {
     let mut world = calm(Algorithm::Permission, 3);
     world.command(1, acquire(&["a"]));
     world.run_for(SECOND * 20);

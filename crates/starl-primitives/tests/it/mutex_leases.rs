@@ -1,5 +1,5 @@
-//! With leases a holder may die: others get what it held when its lease ends, with a greater number. Clocks may
-//! run wrong within the bound; beyond it two robots may hold the same, and their numbers tell them apart.
+//! With leases a holder may crash: others get its resources when the lease ends, with a greater number. Clocks may
+//! drift within the bound; beyond it two robots may hold the same resource, and their numbers distinguish them.
 
 use crate::harness::locker::{Locker, RESOURCES, acquire, entries, mutex, numbers, release, set};
 use crate::harness::{Wire, World};
@@ -21,7 +21,7 @@ fn calm(count: usize) -> World {
 }
 
 #[test]
-fn what_a_dead_robot_held_is_free_after_its_lease() {
+fn resources_of_a_crashed_robot_are_free_after_its_lease() {
     let mut world = calm(4);
     world.command(3, acquire(&["a", "b"]));
     world.run_for(SECOND * 30);

@@ -1,6 +1,6 @@
-//! How many messages an entry takes, counted for 3 to 100 robots, against what each algorithm's takes in
-//! theory. A message to all counts once for each receiver. `cargo test -p starl-primitives --test
-//! mutex_messages -- --nocapture` shows the table of docs/reference/primitives/mutex.md.
+//! The number of messages of an entry for 3 to 100 robots, compared with the theory of each algorithm. A message to all
+//! counts once for each receiver. `cargo test -p starl-primitives --test mutex_messages -- --nocapture` shows the table
+//! of docs/reference/primitives/mutex.md.
 
 use crate::harness::locker::{ALGORITHMS, Locker, acquire, asked, mutex, release};
 use crate::harness::{Wire, World};
@@ -79,7 +79,7 @@ fn an_entry_takes_the_messages_of_theory() {
                 (alone.0 - each * asked).abs() < 0.01,
                 "{algorithm:?} {count}: {alone:?}"
             );
-            // In addition, with quorums waiting robots are told, asked to yield, and yield: at most twice as
+            // In addition, with quorums waiting robots are informed, asked to yield, and yield: at most twice as
             // many. A crowd of a hundred waits so long that requests are repeated.
             let most = match algorithm {
                 Algorithm::Permission => 2.0,

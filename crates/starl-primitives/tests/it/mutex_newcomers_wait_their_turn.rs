@@ -8,7 +8,7 @@ use starl_core::Duration;
 const SECOND: Duration = Duration::from_seconds(1);
 
 #[test]
-fn a_restarted_robot_comes_after_waiting_robots() {
+fn a_restarted_robot_gets_its_turn_after_waiting_robots() {
     for algorithm in ALGORITHMS {
         let boxed = Locker::boxed(algorithm, false);
         let period = Some(Duration::from_millis(100));

@@ -1,5 +1,5 @@
-//! The numbers of a lease mutex grow whatever clocks show, as long as no majority forgets them at once; and robots say
-//! so where one has.
+//! The numbers of a lease mutex grow independent of clocks, as long as no majority forgets them at once; robots report
+//! if one has.
 
 use crate::harness::locker::{Locker, acquire, entries, mutex, release};
 use crate::harness::{Wire, World};

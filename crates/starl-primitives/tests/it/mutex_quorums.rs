@@ -1,5 +1,4 @@
-//! Quorums go round robots that are believed to have failed, and an arbiter that has restarted grants nothing
-//! before it knows what it had granted.
+//! Quorums avoid suspected robots, and a restarted arbiter grants nothing before it knows its earlier grants.
 
 use crate::harness::locker::{Locker, acquire, mutex, release, set};
 use crate::harness::{Wire, World};
@@ -17,7 +16,7 @@ fn calm(count: usize) -> World {
 }
 
 #[test]
-fn a_dead_robot_is_left_out() {
+fn a_crashed_robot_is_left_out() {
     for dead in 1..9 {
         let mut world = calm(9);
         world.crash(dead);
@@ -31,7 +30,7 @@ fn a_dead_robot_is_left_out() {
 }
 
 #[test]
-fn waiting_for_a_dead_holder_is_reported_and_ends_when_it_returns() {
+fn waiting_for_a_crashed_holder_is_reported_and_ends_when_it_returns() {
     let mut world = calm(4);
     world.command(3, acquire(&["a", "b"]));
     world.run_for(SECOND);
@@ -42,7 +41,7 @@ fn waiting_for_a_dead_holder_is_reported_and_ends_when_it_returns() {
     assert!(!mutex(&world, 0).crit() && mutex(&world, 0).failed());
     world.command(0, release(&["b"]));
     world.run_for(SECOND * 5);
-    // It waited for nothing but the request that was withdrawn.
+    // It waited only for the request that was withdrawn.
     assert!(mutex(&world, 1).crit() && !mutex(&world, 1).failed());
     world.command(0, acquire(&["b"]));
     world.run_for(SECOND * 5);
@@ -53,7 +52,7 @@ fn waiting_for_a_dead_holder_is_reported_and_ends_when_it_returns() {
 }
 
 #[test]
-fn arbiters_that_restart_ask_what_they_had_granted() {
+fn restarted_arbiters_ask_for_their_grants() {
     let mut world = calm(4);
     world.command(0, acquire(&["a"]));
     world.run_for(SECOND);

@@ -20,7 +20,7 @@ fn is_doubly_held(world: &World) -> bool {
 /// A robot that holds something requests nothing. Two robots with invented resources that the other one requests
 /// would wait for each other.
 #[test]
-fn robots_that_wait_give_up_what_a_fault_has_made_up() {
+fn waiting_robots_give_up_invented_resources() {
     for algorithm in ALGORITHMS {
         let mut found = 0;
         for seed in 0..SEEDS {

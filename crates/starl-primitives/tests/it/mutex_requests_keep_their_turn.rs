@@ -16,7 +16,7 @@ fn world() -> World {
 }
 
 #[test]
-fn one_that_takes_part_no_longer_is_not_waited_for() {
+fn robots_do_not_wait_for_a_robot_that_no_longer_takes_part() {
     let mut world = world();
     world.command(3, acquire(&["a"]));
     world.run_for(SECOND);
@@ -42,7 +42,7 @@ fn one_that_takes_part_no_longer_is_not_waited_for() {
 }
 
 #[test]
-fn one_that_takes_part_from_now_on_is_asked() {
+fn a_new_participant_is_asked() {
     let mut world = world();
     world.command(2, acquire(&["a"]));
     world.run_for(SECOND);

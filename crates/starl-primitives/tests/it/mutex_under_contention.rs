@@ -1,7 +1,6 @@
-//! The cost of an entry where all robots always want the same few resources and keep them for a while: at most 4
-//! n datagrams in a fleet of n, also with a fifth of them lost, and without starvation.
-//! `cargo test -p starl-primitives --test it mutex_under_contention -- --nocapture` prints the table of
-//! docs/reference/primitives/mutex.md.
+//! The cost of an entry if all robots always request the same few resources and hold them for a while: at most 4 n
+//! datagrams in a fleet of n, also with a fifth of them lost, and without starvation. `cargo test -p starl-primitives
+//! --test it mutex_under_contention -- --nocapture` prints the table of docs/reference/primitives/mutex.md.
 
 use crate::harness::locker::{ALGORITHMS, Locker, contend};
 use crate::harness::{Wire, World};

@@ -40,7 +40,7 @@ fn a_robot_under_way_drives_on() {
 }
 
 #[test]
-fn where_the_way_is_not_free_a_path_to_the_last_point_is_planned() {
+fn if_the_way_is_not_free_a_path_to_the_last_point_is_planned() {
     let wall = block(p(0.8, 0.2), p(1.2, 0.6));
     let points = [p(1.0, 0.0), p(1.0, 1.0)];
     for known in [true, false] {

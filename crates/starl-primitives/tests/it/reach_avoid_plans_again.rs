@@ -1,4 +1,4 @@
-//! ReachAvoid plans again when it must, heeds no answer that is out of date, and is never active for
+//! ReachAvoid plans again when it must, ignores outdated answers, and is never active for
 //! ever.
 
 use crate::harness::pilot::{AIR, Bench, block, p};
@@ -48,7 +48,7 @@ fn when_a_new_obstacle_is_on_its_path_and_not_when_it_is_beside_it() {
 }
 
 #[test]
-fn when_it_comes_no_further() {
+fn when_it_makes_no_progress() {
     let mut bench = under_way();
     bench.at(p(0.5, 0.0));
     bench.time_out();

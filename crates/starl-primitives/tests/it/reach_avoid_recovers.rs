@@ -1,12 +1,11 @@
-//! Whatever state a fault leaves ReachAvoid in, a command under way comes to an end, and the next one is carried
-//! out.
+//! From any state that a fault leaves, the current command of ReachAvoid ends, and the next one is executed.
 
 use crate::harness::pilot::{Bench, p};
 use starl_core::Random;
 use starl_primitives::reach_avoid::Options;
 
-/// The planner answers at once, the robot drives where it is told to, and where neither happens the timer fires.
-/// Gives whether the command ends.
+/// The planner answers at once, the robot drives to its target, and where neither happens the timer fires. Returns
+/// whether the command ends.
 fn goes_on_to_the_end(bench: &mut Bench) -> bool {
     let mut answered = bench.plans.len();
     for _ in 0..500 {

@@ -26,7 +26,7 @@ fn sent(world: &mut World, robot: usize, command: impl starl_core::Timer) -> usi
 }
 
 #[test]
-fn operations_cost_what_is_documented() {
+fn operations_have_their_documented_cost() {
     for count in [3, 5, 8] {
         let mut world = idle(count);
         // A question to all is one datagram; the answers are one each.
@@ -109,7 +109,7 @@ fn a_fleet_starts_without_those_that_are_down() {
 }
 
 #[test]
-fn what_a_majority_alone_has_stored_comes_to_the_others() {
+fn values_stored_by_a_majority_spread_to_the_others() {
     let mut world = idle(4);
     world.wire.cut = (0..3).flat_map(|robot| [(robot, 3), (3, robot)]).collect();
     world.command(0, write(5));

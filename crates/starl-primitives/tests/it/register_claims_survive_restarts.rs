@@ -1,5 +1,5 @@
-//! A robot keeps its promise to a claim although it restarts without memory. An unfinished write of a dead
-//! robot is completed by the next robot that finds it, or never.
+//! A robot keeps its promise to a claim although it restarts without memory. An unfinished write of a crashed robot is
+//! completed by the next robot that finds it, or never.
 
 use crate::harness::keeper::{Keeper, claim, keeper, known, read, result, status, update, write};
 use crate::harness::{Wire, World};
@@ -55,7 +55,7 @@ fn a_restarted_robot_recovers_its_promises() {
 }
 
 #[test]
-fn what_one_other_has_stored_of_a_dead_robots_update_is_completed() {
+fn a_crashed_robots_update_stored_by_one_other_is_completed() {
     let mut world = idle();
     world.command(0, claim());
     world.run_for(SECOND);

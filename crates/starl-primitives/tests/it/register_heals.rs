@@ -1,4 +1,4 @@
-//! After any corruption of state copies come to agree, and what is written from then on is read.
+//! After any corruption of state copies agree again, and later writes are read.
 
 use crate::harness::keeper::{Keeper, keeper, known, read, result, write};
 use crate::harness::{Wire, World};

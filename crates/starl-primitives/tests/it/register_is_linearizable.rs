@@ -1,5 +1,5 @@
-//! Registers behave as if there were one of each, whatever the network does and whichever robots crash and
-//! restart, as long as no majority is down or recovering at once; and every operation ends.
+//! Registers behave like a single copy, whatever the network does and whichever robots crash and restart, as long as no
+//! majority is down or recovering at once; and every operation ends.
 
 use crate::harness::keeper::{Keeper, judge, keeper};
 use crate::harness::{Wire, World};

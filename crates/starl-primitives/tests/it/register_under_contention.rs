@@ -31,7 +31,7 @@ fn count(world: &mut World, run: impl FnOnce(&mut World)) -> (f64, Duration) {
 }
 
 #[test]
-fn operations_at_once_come_to_an_end_with_few_datagrams() {
+fn concurrent_operations_end_with_few_datagrams() {
     println!("| robots | lost | write | read | claim and update |");
     for robots in [10, 30, 100] {
         for loss in [0.0, 0.2] {

@@ -1,4 +1,4 @@
-//! From any state at all robots come to agree again (self-stabilisation, Dijkstra 1974).
+//! From any state robots agree again (self-stabilisation, Dijkstra 1974).
 
 use crate::harness::registrar::{Registrar, agree, list, register, registration};
 use crate::harness::{Wire, World};
@@ -8,8 +8,8 @@ use starl_primitives::registration::Options;
 const SECOND: Duration = Duration::from_seconds(1);
 const PERIOD: Option<Duration> = Some(Duration::from_millis(100));
 
-/// Corrupts some of four robots, of which three take part, and gives how long it takes until those three
-/// agree and go on agreeing for 10 s.
+/// Corrupts some of four robots, of which three take part, and gives how long it takes until those three agree and
+/// continue agreeing for 10 s.
 fn recovery(seed: u64, wire: Wire) -> Duration {
     let mut random = Random::keyed(seed, &[11]);
     let make = Registrar::boxed(false, Options::default());
@@ -44,7 +44,7 @@ fn recovery(seed: u64, wire: Wire) -> Duration {
 }
 
 #[test]
-fn robots_come_to_agree_from_any_state() {
+fn robots_agree_from_any_state() {
     let mut spans: Vec<Duration> = (0..400)
         .map(|seed| recovery(seed, Wire::perfect()))
         .collect();

@@ -1,4 +1,4 @@
-//! How many datagrams an agreement takes: as many as the theory says, and in bounded memory whatever comes.
+//! The number of datagrams of an agreement is that of the theory, and memory is bounded for any input.
 
 use crate::harness::registrar::{Registrar, agree, register, unregister};
 use crate::harness::{self, Wire, World};
@@ -35,7 +35,7 @@ fn rarely_announcing(count: usize) -> World {
 }
 
 #[test]
-fn agreements_cost_what_the_theory_says() {
+fn agreements_have_their_theoretical_cost() {
     for count in [3, 4, 5, 10, 20, 50, 100] {
         let mut world = rarely_announcing(count + 1);
         let all: Vec<u32> = (0..count as u32).collect();

@@ -1,6 +1,6 @@
-//! Whatever the network does and whichever robots crash and restart: no two lists of one time, no two robots
-//! that list each other with different lists, no robot in a list without registration. After the faults all
-//! robots eventually show the same list.
+//! Under all faults of the network and all crashes and restarts: there are no two lists of one time, no two robots that
+//! list each other with different lists, and no robot in a list without registration. After the faults all robots
+//! eventually show the same list.
 
 use crate::harness::registrar::{
     Registrar, agree, judge, list, register, registration, unregister,
@@ -60,7 +60,7 @@ fn loss_duplication_and_reordering() {
 }
 
 #[test]
-fn robots_that_come_and_go_on_a_bad_network() {
+fn robots_register_and_leave_on_a_bad_network() {
     let mut lists = 0;
     for seed in 0..100 {
         let mut world = world(4, seed, Wire::bad(), true);
@@ -71,7 +71,7 @@ fn robots_that_come_and_go_on_a_bad_network() {
 }
 
 #[test]
-fn partitions_that_come_and_go() {
+fn partitions_begin_and_heal() {
     for seed in 0..100 {
         let mut random = Random::keyed(seed, &[3]);
         let mut world = world(5, seed, Wire::perfect(), false);

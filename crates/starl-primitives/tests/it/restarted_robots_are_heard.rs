@@ -1,5 +1,5 @@
-//! A robot that restarts counts from one again; its messages are not taken for duplicates of those it
-//! sent before the crash, and late copies of those are not taken for new ones.
+//! A robot that restarts counts from one again; its messages are not mistaken for duplicates of those before the crash,
+//! nor late copies of those for new ones.
 
 use crate::harness::talker::{Talker, broadcast};
 use crate::harness::{Wire, World};
@@ -50,7 +50,7 @@ fn a_restarted_sender_is_heard() {
 }
 
 #[test]
-fn a_restarted_receiver_takes_what_is_on_its_way_and_what_comes() {
+fn a_restarted_receiver_accepts_messages_in_transit_and_later_ones() {
     for in_order in [false, true] {
         let options = Options {
             first_in_first_out: in_order,
@@ -77,7 +77,7 @@ fn a_restarted_receiver_takes_what_is_on_its_way_and_what_comes() {
 }
 
 #[test]
-fn a_receiver_that_restarts_does_not_wait_for_what_its_earlier_life_took() {
+fn a_restarted_receiver_does_not_wait_for_messages_of_its_earlier_life() {
     for in_order in [false, true] {
         let options = Options {
             first_in_first_out: in_order,

@@ -1,4 +1,4 @@
-//! A robot that is shown a list of what another has asks for what it lacks, and gets it.
+//! A robot that gets a list of another's elements requests the missing ones, and receives them.
 
 use crate::harness;
 use starl_core::{
@@ -45,7 +45,7 @@ fn fires(alarm: Alarm) -> Input {
 }
 
 #[test]
-fn it_asks_for_what_it_lacks_and_gets_it() {
+fn it_requests_missing_elements() {
     let mut knowing = SharedMemory::new("memory", Options::default());
     let mut lacking = knowing.clone();
     harness::alone(0, |robot| {

@@ -32,7 +32,7 @@ fn broken_chain(causal: u16) -> World {
 }
 
 #[test]
-fn what_comes_before_what_it_depends_on_is_held_back() {
+fn writes_are_held_back_until_their_dependencies_arrive() {
     let eventual = broken_chain(0);
     assert_eq!(read(&eventual, 2, 0), None);
     assert_eq!(read(&eventual, 2, 1), Some(2), "eventual variables are not");
@@ -45,7 +45,7 @@ fn what_comes_before_what_it_depends_on_is_held_back() {
 }
 
 #[test]
-fn what_was_overwritten_does_not_break_the_chain() {
+fn overwritten_writes_do_not_break_the_chain() {
     let mut world = world(4, 1, Wire::perfect(), 3);
     world.run_for(SECOND * 20);
     world.wire.cut = (0..3).flat_map(|r| [(r, 3), (3, r)]).collect();
@@ -149,7 +149,7 @@ fn judge(world: &World, crashes: &[(Time, u32)]) -> usize {
 }
 
 #[test]
-fn nothing_is_shown_too_early_whatever_the_network_does() {
+fn no_write_is_shown_before_its_dependencies() {
     for seed in 0..60 {
         let mut random = Random::keyed(seed, &[9]);
         let mut world = world(4, seed, Wire::bad(), 4);
@@ -177,7 +177,7 @@ fn nothing_is_shown_too_early_whatever_the_network_does() {
             }
         }
         world.wire.cut.clear();
-        // All is written once more, so that nothing waits for what is lost.
+        // All is written again, so that nothing waits for what is lost.
         for variable in 0..4 {
             world.command(0, write(variable, 1000));
             (0..4).for_each(|who| world.command(who, write_own(variable, 1001)));
@@ -198,7 +198,7 @@ fn nothing_is_shown_too_early_whatever_the_network_does() {
 }
 
 #[test]
-fn after_a_corruption_what_is_written_later_is_shown() {
+fn writes_after_a_corruption_are_shown() {
     for seed in 0..100 {
         let mut world = world(3, seed, Wire::bad(), 3);
         for variable in 0..3 {

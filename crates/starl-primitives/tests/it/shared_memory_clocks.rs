@@ -39,7 +39,7 @@ fn a_later_write_by_a_slower_clock_wins() {
 }
 
 #[test]
-fn what_a_robot_did_not_know_of_may_win_over_what_it_writes() {
+fn an_unknown_concurrent_write_may_win() {
     let mut world = world(1, Wire::perfect(), [0, HOUR, 0]);
     world.wire.loss = 1.0;
     world.command(1, write(0, 1));

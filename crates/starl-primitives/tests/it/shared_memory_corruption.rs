@@ -1,5 +1,4 @@
-//! From any state at all memories come to agree again, and what is written from then on is read by all
-//! (self-stabilisation, Dijkstra 1974).
+//! From any state memories agree again, and later writes are read by all (self-stabilisation, Dijkstra 1974).
 
 use crate::harness::sharer::{Sharer, all, busy_world, memory, read, read_of, write, write_own};
 use crate::harness::{Wire, World};
@@ -32,7 +31,7 @@ fn assert_agreement(world: &World, seed: u64) {
 }
 
 #[test]
-fn corrupted_memories_come_to_agree() {
+fn corrupted_memories_agree_again() {
     for seed in 0..100 {
         for whom in [&[2][..], &[0, 1, 2, 3]] {
             let mut world = corrupted(seed, Wire::perfect(), whom);
@@ -43,7 +42,7 @@ fn corrupted_memories_come_to_agree() {
 }
 
 #[test]
-fn what_is_written_after_a_corruption_is_read_by_all() {
+fn writes_after_a_corruption_are_read_by_all() {
     for seed in 0..100 {
         for wire in [Wire::perfect(), Wire::bad()] {
             let mut world = corrupted(seed, wire, &[0, 1, 2, 3]);
@@ -69,7 +68,7 @@ fn what_is_written_after_a_corruption_is_read_by_all() {
 
 /// An element that its owner still holds is its owner's word.
 #[test]
-fn an_owner_sets_right_what_others_garbled() {
+fn an_owner_corrects_garbled_copies() {
     for seed in 0..100 {
         let mut world = corrupted(seed, Wire::bad(), &[1, 2, 3]);
         world.run_for(Duration::from_seconds(30));
@@ -102,7 +101,7 @@ fn a_corrupted_memory_is_passed_on() {
 }
 
 #[test]
-fn a_write_after_a_corruption_is_later_than_what_it_replaces() {
+fn a_write_after_a_corruption_is_later_than_the_replaced_value() {
     for seed in 0..100 {
         let mut world = corrupted(seed, Wire::perfect(), &[0]);
         for variable in 0..8 {

@@ -1,5 +1,5 @@
-//! Whatever arrives from the network, memories stand: nothing panics, what is not a datagram of theirs
-//! changes nothing, and one that says untrue things of an unknown length does not fill the memory.
+//! Memories tolerate any bytes from the network: there is no panic, foreign datagrams change nothing, and forged ones
+//! of any length do not fill the memory.
 
 use crate::harness::sharer::{Sharer, memory, read, write, write_many};
 use crate::harness::{self, Wire, World};
@@ -123,7 +123,7 @@ fn a_memory_without_a_start_begins_with_its_first_input() {
 }
 
 #[test]
-fn a_memory_takes_no_more_than_it_holds() {
+fn a_memory_is_bounded() {
     let options = Options {
         most_elements: 10,
         ..Options::default()

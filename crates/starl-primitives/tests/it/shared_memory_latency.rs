@@ -8,7 +8,7 @@ use starl_primitives::shared_memory::Options;
 
 const ROBOTS: u32 = 10;
 
-/// Seconds from each of many writes until all robots read it, in rising order. Delays are 5 to 50 ms.
+/// Seconds from each of many writes until all robots read it, in ascending order. Delays are 5 to 50 ms.
 fn latencies(loss: f64, pause: Duration, busy: bool) -> Vec<f64> {
     let mut latencies = Vec::new();
     for seed in 0..10 {

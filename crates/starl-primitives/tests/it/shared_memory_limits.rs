@@ -48,7 +48,7 @@ fn each_write_has_a_later_stamp() {
 }
 
 #[test]
-fn what_cannot_be_kept_or_sent_is_refused() {
+fn values_that_cannot_be_kept_or_sent_are_rejected() {
     let options = Options {
         longest_value: 10,
         most_elements: 2,

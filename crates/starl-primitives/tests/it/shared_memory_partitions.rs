@@ -1,4 +1,4 @@
-//! Parts of a fleet that were apart come to one memory when they are linked again.
+//! The memories of separated parts of a fleet converge after the partition.
 
 use crate::harness::sharer::{Sharer, all, read, write, write_own};
 use crate::harness::{Wire, World};
@@ -34,7 +34,7 @@ fn partitioned(seed: u64, wire: Wire) -> World {
 }
 
 #[test]
-fn each_part_goes_on_by_itself() {
+fn each_part_continues_by_itself() {
     let world = partitioned(1, Wire::perfect());
     for robot in 0..ROBOTS as usize {
         let second = robot >= ROBOTS as usize / 2;
@@ -74,13 +74,13 @@ fn one_link_between_the_parts_is_enough() {
 }
 
 #[test]
-fn links_that_are_dead_in_one_direction_are_gone_round() {
+fn one_way_links_are_bypassed() {
     for seed in 0..40 {
         let robots = [4, 5, 8, 12][seed as usize % 4];
         let make = Sharer::boxed(Options::default());
         let mut world = World::new(robots, seed, Wire::perfect(), None, make);
         let mut random = Random::keyed(seed, &[3]);
-        // All that two robots say does not reach some other: the same one, every other time.
+        // Everything that two robots say does not reach some other: the same one, every other time.
         let mut to = random.below(robots as u32);
         for _ in 0..2 {
             let from = random.below(robots as u32);

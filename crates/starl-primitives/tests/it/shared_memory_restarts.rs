@@ -1,5 +1,5 @@
-//! A robot that restarts, or joins late, learns what was written; and what it writes afterwards counts as
-//! later than what it wrote before, even if its clock begins again.
+//! A robot that restarts, or joins late, learns the written values; and its writes are later than those of its earlier
+//! life, even if its clock is reset.
 
 use crate::harness::sharer::{Sharer, all, memory, read, read_of, write, write_own};
 use crate::harness::{Wire, World};
@@ -11,7 +11,7 @@ fn world(seed: u64, wire: Wire) -> World {
 }
 
 #[test]
-fn a_restarted_robot_learns_what_it_and_others_wrote() {
+fn a_restarted_robot_learns_its_own_and_other_writes() {
     for seed in 0..20 {
         let mut world = world(seed, Wire::bad());
         world.command(0, write_own(0, 1));
@@ -29,7 +29,7 @@ fn a_restarted_robot_learns_what_it_and_others_wrote() {
 }
 
 #[test]
-fn what_it_writes_after_a_restart_wins_though_its_clock_begins_again() {
+fn writes_after_a_restart_win_despite_a_reset_clock() {
     for seed in 0..20 {
         for wire in [Wire::perfect(), Wire::bad()] {
             let mut world = world(seed, wire);
@@ -53,7 +53,7 @@ fn what_it_writes_after_a_restart_wins_though_its_clock_begins_again() {
 }
 
 #[test]
-fn with_a_clock_that_goes_on_nothing_is_written_again() {
+fn with_a_continuing_clock_nothing_is_written_again() {
     let mut world = world(1, Wire::perfect());
     world.command(0, write_own(0, 1));
     world.run_for(Duration::from_seconds(20));
@@ -85,7 +85,7 @@ fn a_robot_that_joins_late_reads_everything_within_two_seconds() {
 }
 
 #[test]
-fn what_only_a_crashed_robot_knew_lives_on_in_no_one() {
+fn values_known_only_to_a_crashed_robot_are_lost() {
     let mut world = world(1, Wire::perfect());
     world.wire.loss = 1.0;
     world.command(0, write(0, 1));
@@ -102,7 +102,7 @@ fn what_only_a_crashed_robot_knew_lives_on_in_no_one() {
 /// It reads an old write of its own and writes the same again. A later one of its own, from before the
 /// crash, that comes after that counts as earlier.
 #[test]
-fn writing_again_what_it_reads_after_a_restart_is_a_write() {
+fn writing_the_read_value_after_a_restart_is_a_write() {
     let mut world = world(1, Wire::perfect());
     world.wire.cut.extend([(0, 2), (1, 2), (2, 1)]);
     world.command(0, write_own(0, 1));
@@ -128,10 +128,10 @@ fn writing_again_what_it_reads_after_a_restart_is_a_write() {
     }
 }
 
-/// In both of its lives a robot whose clock is behind is told of the same reading of another clock, and goes on
-/// from there. The first life's write is known to one robot, which the second life does not hear.
+/// In both of its lives a robot whose clock is behind receives the same reading of another clock, and continues from
+/// there. The first life's write is known to one robot, which the second life does not hear.
 #[test]
-fn two_lives_that_go_on_from_one_reading_give_their_writes_two_stamps() {
+fn two_lives_that_continue_from_one_reading_have_different_stamps() {
     let mut world = world(1, Wire::perfect());
     world.set_clock_ahead(1, 3_600_000_000_000);
     world.command(1, write(0, 1));

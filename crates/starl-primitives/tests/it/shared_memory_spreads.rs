@@ -1,5 +1,5 @@
-//! Every write comes to be read by every robot, whatever the network does to datagrams, and robots with
-//! several writes to choose from all choose the same.
+//! Every write reaches every robot, with any loss, delay or reordering of datagrams, and all robots choose the same
+//! among concurrent writes.
 
 use crate::harness::sharer::{self, Sharer, all, read, read_of, write, write_own};
 use crate::harness::{Wire, World};

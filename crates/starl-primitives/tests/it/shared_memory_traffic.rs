@@ -11,7 +11,7 @@ fn world(robots: usize, seed: u64, wire: Wire) -> World {
 }
 
 #[test]
-fn quiet_memories_say_little_and_no_more_where_there_are_more() {
+fn quiet_memories_have_little_traffic_independent_of_the_fleet_size() {
     for robots in [2, 10, 50] {
         let mut world = world(robots, 1, Wire::perfect());
         world.command(0, write(0, 1));
@@ -140,7 +140,7 @@ fn large_differences_are_sent_piece_by_piece() {
 /// Many robots find a difference at once; a robot that hears another send the write does not send
 /// it too.
 #[test]
-fn what_many_robots_missed_is_sent_again_about_once() {
+fn a_write_missed_by_many_robots_is_sent_again_about_once() {
     let mut bytes = 0;
     for seed in 0..20 {
         let mut world = world(30, seed, Wire::perfect());

@@ -1,5 +1,5 @@
-//! From any state at all broadcasts in causal and in total order come to keep their promises again
-//! (self-stabilisation, Dijkstra 1974), and how long that takes.
+//! From any state broadcasts in causal and in total order recover their guarantees (self-stabilisation, Dijkstra 1974);
+//! the time is measured.
 
 use crate::harness::teller::{Id, Step, Teller, causal_violation, runs, tell, total_violation};
 use crate::harness::{Wire, World};
@@ -29,8 +29,8 @@ fn corrupted(order: Order, seed: u64, whom: &[usize]) -> (World, Time) {
     (world, at)
 }
 
-/// From when on all is as it should be: every message that was sent from then on was handed to all, once
-/// and in order.
+/// The time from which on every message that was sent was delivered to all, once and in
+/// order.
 fn recovered(world: &World, order: Order) -> Time {
     let runs = runs(world, &[]);
     let mut sent: BTreeMap<Id, Time> = BTreeMap::new();

@@ -1,6 +1,5 @@
-//! With storage, what robots have acknowledged, granted and promised outlasts crashes of all of them at once, whatever
-//! the network does; without waiting they go on where they were. One whose storage is lost recovers as robots
-//! without storage do.
+//! With storage, acknowledgements, grants and promises survive crashes of all robots at once, under all network faults;
+//! the robots continue without waiting. A robot whose storage is lost recovers like robots without storage.
 
 use crate::harness::elector::{self, Elector, agreed, by, election};
 use crate::harness::keeper::{self, Keeper, known, read, result, write};
@@ -70,7 +69,7 @@ impl Stormy {
 }
 
 #[test]
-fn registers_stay_linearizable_though_all_crash_at_once() {
+fn registers_stay_linearizable_when_all_robots_crash() {
     let mut done = 0;
     for seed in 0..60 {
         let make = Keeper::boxed(true, None);
@@ -123,7 +122,7 @@ fn a_robot_whose_storage_is_lost_recovers_from_the_others() {
 }
 
 #[test]
-fn locks_stay_exclusive_though_all_arbiters_crash_at_once() {
+fn locks_stay_exclusive_when_all_arbiters_crash() {
     for algorithm in locker::ALGORITHMS {
         let mut granted = 0;
         for seed in 0..40 {

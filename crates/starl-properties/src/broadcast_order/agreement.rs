@@ -1,5 +1,5 @@
-//! Agreement in total order, with a bound: what a robot broadcasts that belongs to a majority of the fleet is
-//! handed to all of that majority.
+//! Agreement in total order, with a bound: a broadcast of a robot in a majority of the fleet is delivered to all of
+//! that majority.
 //!
 //! The bound starts when the message was sent, or after the last fault, whichever is later. It is judged for
 //! robots that work then and are in one part with the sender, if they are a majority. Robots that have
@@ -83,8 +83,7 @@ impl Agreement {
         }
     }
 
-    /// The sender has given it up: that is wrong only where nothing has happened that explains it, and then
-    /// the bound tells.
+    /// The sender has given it up. This is an error only without a fault that explains it; then the bound decides.
     pub fn failed(&mut self, key: MessageKey, excused: &mut Excused) {
         let Some((sent, _)) = self.handed.get(&key) else {
             return;
@@ -117,7 +116,7 @@ impl Agreement {
             if let Some(calm) = calm
                 && calm > due
             {
-                // Once more then; those after it in the queue wait for it.
+                // Again then; those after it in the queue wait for it.
                 let later = self.due.back().map_or(calm, |(last, _)| calm.max(*last));
                 self.due.push_back((later, key));
                 continue;

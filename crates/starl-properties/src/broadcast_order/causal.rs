@@ -1,4 +1,4 @@
-//! Causal order: what happened before a message was sent (Lamport 1978) is handed out before it.
+//! Causal order: messages that happened before a message (Lamport 1978) are delivered before it.
 //!
 //! Each sender's messages are delivered in its order, so the predecessors of a message are one number for each sender.
 //! Messages of a robot's earlier life are not required at robots that delivered, or passed over, a message of a later
@@ -27,7 +27,7 @@ pub(super) struct Causality {
     settled: BTreeMap<RobotId, Past>,
     /// The lives of all robots in the order in which they first sent.
     lives: BTreeMap<Process, u64>,
-    /// By receiver and sender, the latest life of which something was handed out or passed over.
+    /// By receiver and sender, the latest life of which something was delivered or passed over.
     latest: BTreeMap<(RobotId, RobotId), u64>,
 }
 
@@ -53,7 +53,7 @@ impl Causality {
         known.insert((robot, key.incarnation), key.number);
     }
 
-    /// Notes the life of a message that a robot was handed or passed over.
+    /// Records the incarnation of a message that a robot delivered or skipped.
     fn settle(&mut self, robot: RobotId, process: Process) {
         let life = self.lives.get(&process).copied().unwrap_or(0);
         let latest = self.latest.entry((robot, process.0)).or_insert(life);
@@ -77,7 +77,7 @@ impl Causality {
         let number = key.number;
         if self.is_over(robot, process) {
             let text = format!(
-                "was handed message {number} of an earlier life of robot {} after one of a later life",
+                "delivered message {number} of an earlier life of robot {} after one of a later life",
                 key.from
             );
             finding.add(CAUSAL, key.from, text);
@@ -86,7 +86,7 @@ impl Causality {
         let settled = self.settled.entry(robot).or_default();
         if settled.get(&process).is_some_and(|&last| last >= number) {
             let text = format!(
-                "was handed message {number} of robot {}, which it had passed over",
+                "delivered message {number} of robot {}, which it had passed over",
                 key.from
             );
             finding.add(CAUSAL, key.from, text);
@@ -104,7 +104,7 @@ impl Causality {
         };
         if let Some(((sender, _), missing)) = others.find(is_missing) {
             let text = format!(
-                "was handed message {number} of robot {} before message {missing} of robot {sender}, \
+                "delivered message {number} of robot {} before message {missing} of robot {sender}, \
                  which comes before it",
                 key.from
             );

@@ -47,7 +47,7 @@ struct Instance {
     is_total: bool,
     /// The last message that each process has sent.
     sent: BTreeMap<Process, u32>,
-    /// The last message of each process that each robot was handed.
+    /// The last message of each process that each robot delivered.
     handed: BTreeMap<RobotId, BTreeMap<Process, u32>>,
     /// For causal order.
     causality: Option<Causality>,
@@ -143,7 +143,7 @@ impl BroadcastOrder {
             {
                 let key = report.message(*from, *message);
                 if let Some(what) = self.unordered.take(robot, &key, None) {
-                    let text = format!("was handed message {} of robot {from}, {what}", key.number);
+                    let text = format!("delivered message {} of robot {from}, {what}", key.number);
                     finding.add(INTEGRITY, *from, text);
                 }
             }
@@ -194,16 +194,16 @@ impl Instance {
         let name = format!("message {number} of robot {}", key.from);
         let is_sent = self.sent.get(&process).is_some_and(|&last| number <= last);
         if !is_sent {
-            let text = format!("was handed {name}, which was not sent");
+            let text = format!("delivered {name}, which was not sent");
             return finding.add(INTEGRITY, key.from, text);
         }
         let last = self.handed.entry(robot).or_default();
         match last.insert(process, number) {
             Some(before) if before == number => {
-                return finding.add(INTEGRITY, key.from, format!("was handed {name} twice"));
+                return finding.add(INTEGRITY, key.from, format!("delivered {name} twice"));
             }
             Some(before) if before > number => {
-                let text = format!("was handed {name} after message {before}");
+                let text = format!("delivered {name} after message {before}");
                 finding.add(FIFO, key.from, text);
             }
             _ => {}

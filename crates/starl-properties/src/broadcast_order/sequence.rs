@@ -1,12 +1,12 @@
-//! Total order: no two robots are handed two messages in different orders; and between two messages that a
-//! robot is handed one after the other, without saying that it has a gap, no robot is handed another one.
+//! Total order: no two robots deliver two messages in different orders; and between two messages that a robot delivers
+//! directly after each other, without reporting a gap, no robot delivers another one.
 
 use super::{Finding, TOTAL};
 use crate::report::MessageKey;
 use starl_core::RobotId;
 use std::collections::{BTreeMap, VecDeque};
 
-/// So many messages of each robot are compared with those of others, the latest.
+/// The number of latest messages of each robot that are compared with those of others.
 const WINDOW: usize = 2048;
 
 /// The runs of robots that have ended that are compared with others, the latest.
@@ -22,7 +22,7 @@ struct Run {
     count: u64,
     /// The last one, unless there is a gap after it.
     last: Option<MessageKey>,
-    /// By the other run: the last place here of a message that both were handed.
+    /// By the other run: the last place here of a message that both delivered.
     common: BTreeMap<u64, u64>,
 }
 
@@ -79,12 +79,12 @@ impl Sequences {
             let Some(&there) = other.places.get(&key) else {
                 continue;
             };
-            // The place there, and here, of the last message that both were handed.
+            // The place there, and here, of the last message that both delivered.
             let last_there = other.common.get(&number).copied();
             if last_there.is_some_and(|last| last >= there) {
                 let other = other.robot.unwrap_or(robot);
                 let text = format!(
-                    "was handed message {} of robot {} after one that robot {other} was handed later",
+                    "delivered message {} of robot {} after one that robot {other} delivered later",
                     key.number, key.from
                 );
                 finding.add(TOTAL, other, text);
@@ -106,7 +106,7 @@ impl Sequences {
         self.runs.insert(number, run);
     }
 
-    /// A robot was handed one message right after another.
+    /// A robot delivered one message right after another.
     fn follows(
         &mut self,
         last: MessageKey,
@@ -117,7 +117,7 @@ impl Sequences {
         match self.next.get(&last) {
             Some((next, other)) if *next != key => {
                 let text = format!(
-                    "was handed message {} of robot {} where robot {other} was handed message {} of \
+                    "delivered message {} of robot {} where robot {other} delivered message {} of \
                      robot {}",
                     key.number, key.from, next.number, next.from
                 );

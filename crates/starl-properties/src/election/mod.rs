@@ -1,4 +1,4 @@
-//! Leader election (thesis, section 3.4.2): agreement, soundness and progress, and what epochs promise.
+//! Leader election (thesis, section 3.4.2): agreement, soundness and progress, and the guarantees of epochs.
 //!
 //! An epoch must always have one leader. Guarantees that rest on memory and clocks are not judged where memory
 //! was lost: epochs need not grow past a moment at which a majority of the participants did not vote, because

@@ -139,7 +139,7 @@ impl Election {
         }
         if owes {
             let text = format!(
-                "robot {robot} stands for election and has no leader for {}",
+                "robot {robot} is a candidate and has had no leader for {}",
                 self.bound
             );
             found.push(Violation::new(PROGRESS, now, [robot], text));

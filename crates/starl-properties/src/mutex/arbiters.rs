@@ -1,4 +1,4 @@
-//! Which robots are ready to grant, as far as they say so, and from when on a request is to be granted.
+//! The robots that have reported that they are ready to grant, and the time from which a request must be granted.
 //!
 //! With leases a majority that works, is ready and connected with the robot suffices, whichever other robots
 //! are down. With permissions and quorums all robots are needed.
@@ -47,7 +47,7 @@ impl Fleet<'_> {
 }
 
 impl Arbiters {
-    /// A robot knows what it has granted; whether the numbers that were given before may be forgotten.
+    /// A robot knows its grants; `anew` says whether earlier numbers may be forgotten.
     pub fn ready(
         &mut self,
         robot: RobotId,
@@ -62,7 +62,7 @@ impl Arbiters {
         is_anew && core::mem::take(&mut self.may_have_forgotten)
     }
 
-    /// A robot has forgotten what it has granted.
+    /// A robot has lost its grants.
     pub fn forgot(&mut self, robot: RobotId) {
         if self.ready.remove(&robot).is_some() {
             let few = self.ready.len() as u32 + self.needed <= self.participants;
@@ -70,7 +70,7 @@ impl Arbiters {
         }
     }
 
-    /// Since when a robot's request has had all that it needs to be granted, and why not before.
+    /// The time since which the conditions for granting a robot's request are met, and the reason why not before.
     pub fn well_since(&self, robot: RobotId, fleet: &Fleet<'_>) -> (Time, Excuse) {
         if self.needed >= self.participants {
             return fleet.well_since();

@@ -180,8 +180,7 @@ impl Locks {
         self.changed(&freed, at);
     }
 
-    /// A robot's state was overwritten: it may hold what it held and may not, and what is held now may be held
-    /// by others too.
+    /// A robot's state was overwritten: it may or may not hold its resources, and others may hold them too.
     pub fn doubt(&mut self, robot: RobotId, at: Time) {
         if let Some(waiting) = self.waiting.remove(&robot) {
             let names: Vec<&str> = waiting.resources.iter().map(|name| &**name).collect();
@@ -209,7 +208,7 @@ impl Locks {
             .is_some_and(|holders| !holders.is_empty())
     }
 
-    /// Requests whose time is up; gives when to look again.
+    /// The requests whose deadline has passed; returns the time of the next check.
     pub fn look(
         &mut self,
         now: Time,

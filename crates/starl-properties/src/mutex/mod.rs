@@ -7,8 +7,8 @@
 //! If a majority of the arbiters of leases has forgotten at once, possibly no robot knows the last number. If they
 //! report this, numbers need only be greater than those since then.
 //!
-//! After a corruption of state anywhere, robots may believe that they hold what others hold until they have
-//! given it back: what is entered within the bound after it is not judged against others.
+//! After a corruption of state anywhere, robots may believe that they hold resources of others until they release them:
+//! resources entered within the bound after it are not judged against others.
 
 mod arbiters;
 mod locks;

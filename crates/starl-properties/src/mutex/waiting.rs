@@ -26,7 +26,7 @@ pub(super) struct Waiting {
     since: Time,
     /// When something last happened that it may have waited for.
     changed: Time,
-    /// How often each robot has come to hold what this one waits for.
+    /// How often each robot has acquired the set that this one waits for.
     overtaken: BTreeMap<RobotId, u32>,
     /// The time, and the robot that overtook it once too often.
     starved: Option<(Time, RobotId)>,
@@ -64,7 +64,7 @@ impl Locks {
         }
     }
 
-    /// A robot has come to hold something.
+    /// A robot has got a resource.
     pub(super) fn overtake(&mut self, robot: RobotId, resource: &str, at: Time) {
         for (&other, waiting) in &mut self.waiting {
             if other != robot && waiting.resources.contains(resource) {
@@ -146,7 +146,7 @@ impl Locks {
                 property: property.into(),
                 at: due,
                 text: format!(
-                    "{} did not get what was asked for within {bound}, {why}",
+                    "{} did not get the requested resources within {bound}, {why}",
                     robot_list(&late)
                 ),
                 robots: late.clone(),

@@ -8,7 +8,7 @@ use starl_core::{Point, Port, RobotId, Time};
 pub struct Command {
     pub port: Port,
     pub started: Time,
-    /// Where the robot is to go, which it can.
+    /// The robot's target, moved to where the robot can be.
     pub target: Point,
     pub vicinity: f64,
     unsafe_set: Obstacles,

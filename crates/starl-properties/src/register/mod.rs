@@ -1,6 +1,6 @@
-//! Registers: linearizability, from what robots say of when their operations begin and end.
+//! Registers: linearizability, from the robots' reports of the begins and ends of operations.
 //!
-//! Each register is judged for itself, as a whole is linearizable if each of its objects is (Herlihy and Wing
+//! Each register is judged separately, because a system is linearizable if each of its objects is (Herlihy and Wing
 //! 1990, "Linearizability: A Correctness Condition for Concurrent Objects").
 
 mod search;
@@ -79,7 +79,7 @@ impl Operation {
 enum Kind {
     Read,
     Write,
-    /// It writes in the place of what was found.
+    /// It replaces the value that was found.
     Update,
 }
 

@@ -1,18 +1,17 @@
-//! Whether a history of one register is linearizable, decided as it happens.
+//! Decides online whether a history of one register is linearizable.
 //!
-//! The search is that of Wing and Gong (1993, "Testing and Verifying Concurrent Objects"): it looks for an
-//! order of the operations that agrees with their times and in which each read gives what was written last.
-//! It goes forward in time and decides as late as possible, when an operation ends, what has taken effect by
-//! then (just-in-time linearization), and keeps what is possible so far as a set of configurations (Lowe
-//! 2017, "Testing for Linearizability").
+//! The search is that of Wing and Gong (1993, "Testing and Verifying Concurrent Objects"): it looks for an order of the
+//! operations that agrees with their times and in which each read returns the last write. It advances in time, decides
+//! only at the end of an operation which operations have taken effect (just-in-time linearization), and keeps the
+//! possibilities as a set of configurations (Lowe 2017, "Testing for Linearizability").
 //!
-//! Where ours differs, since this is a register: reads change nothing, so that they are not ordered. Each
-//! configuration holds, for every read under way, the values that there were since it began. And a write that
-//! takes effect before another one that is under way, unseen but by such reads, can do so in any order.
+//! Ours differs because this is a register: reads change nothing, so they are not ordered. Each configuration contains,
+//! for every current read, the values since its begin. Concurrent writes that only such reads can see may take effect
+//! in any order.
 //!
-//! An update writes one value in the place of another, and can take effect only while the register holds that
-//! one. As the order matters then, once a register was updated all orders of what is under way are tried;
-//! these are few, since what does not find its value does not fit.
+//! An update replaces one value by another, and can take effect only while the register has the first. Then the order
+//! matters, so once a register was updated all orders of the current operations are tried. These are few, because an
+//! update must find its value.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,7 +37,7 @@ pub(super) enum Verdict {
     Possible,
     /// It is not.
     Impossible,
-    /// So many operations were under way at once that it would take too long to say.
+    /// Too many operations were concurrent to decide in a reasonable time.
     Unknown,
 }
 
@@ -110,7 +109,7 @@ impl Search {
         self.writes.insert(id, (value, false));
     }
 
-    /// Something is to take the place of what was found.
+    /// An update begins, which replaces the value that was found.
     pub fn update_begins(&mut self, id: Id, found: Content, value: i64) {
         self.has_updates = true;
         self.updated.insert(id, found);
@@ -416,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn an_update_that_is_told_as_lost_must_not_be_seen() {
+    fn an_update_reported_as_lost_must_not_be_seen() {
         for is_read in [false, true] {
             let mut search = Search::default();
             search.update_begins(0, Content::Nothing, 1);

@@ -15,7 +15,7 @@ pub(super) struct Instance {
     lists: BTreeMap<ListId, List>,
     /// The time of the last registration or departure.
     pub changed: Time,
-    /// Since when not all that are to agree do.
+    /// The time since which the robots that must agree do not.
     pub apart_since: Option<Time>,
     /// Whether it was reported that they do not agree.
     pub is_reported: bool,
@@ -115,7 +115,7 @@ impl Instance {
         }
     }
 
-    /// A robot shows a list from now on. Gives whether what is found may have been made up.
+    /// A robot shows a list from now on. Returns whether a violation may be due to a corruption.
     pub fn shows(
         &mut self,
         robot: RobotId,
@@ -188,7 +188,7 @@ impl Instance {
         }
     }
 
-    /// Whatever was said may have been made up.
+    /// Every report may be due to a corruption from now on.
     pub fn doubts(&mut self) {
         for list in self.lists.values_mut() {
             list.is_doubtful = true;

@@ -54,7 +54,7 @@ impl Registration {
         let Report {
             at, robot, port, ..
         } = *report;
-        // Invented state of a corruption is gone by then.
+        // State that a corruption invented is replaced by then.
         let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
         let mut is_excused = is_disturbed;
@@ -136,10 +136,7 @@ impl Registration {
                 }
             }
             if !late.is_empty() {
-                let text = format!(
-                    "{} did not come to show a list within {bound}",
-                    robot_list(&late)
-                );
+                let text = format!("{} did not show a list within {bound}", robot_list(&late));
                 found.push(Violation::new(PROGRESS, due, late, text));
             }
             let Some(apart_since) = instance.apart_since else {
@@ -159,7 +156,7 @@ impl Registration {
             if !apart.is_empty() {
                 instance.is_reported = true;
                 let text = format!(
-                    "{} did not come to show the list of the others within {bound}",
+                    "{} did not show the list of the others within {bound}",
                     robot_list(&apart)
                 );
                 found.push(Violation::new(CONVERGENCE, due, apart, text));

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 const CAUSALITY: &str = "shared_memory.causality";
 
-/// So many writes of each element are remembered with what they depend on.
+/// The number of writes of each element that are stored with their dependencies.
 const MOST_WRITES: usize = 256;
 
 /// An element: its variable, and its owner in an array.
@@ -45,7 +45,7 @@ struct Memory {
     past: BTreeMap<Element, BTreeMap<Stamp, Arc<Shown>>>,
 }
 
-/// A robot has come to show a write.
+/// A robot shows a write from now on.
 #[derive(Clone, Debug)]
 struct Update {
     at: Time,

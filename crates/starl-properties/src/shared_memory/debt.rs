@@ -15,7 +15,7 @@ pub(super) struct Address {
     pub owner: Option<RobotId>,
 }
 
-/// A write that is to be shown.
+/// A write that a robot must show.
 #[derive(Clone, Debug)]
 pub(super) struct Debt {
     pub address: Address,
@@ -28,13 +28,13 @@ pub(super) struct Debt {
 
 /// Whether a robot is yet to show a write.
 enum Verdict {
-    /// It shows the write, as far as the records tell.
+    /// It shows the write, according to the records.
     Settled,
     /// It does not show the write, and no remaining robot does.
     Lost,
     /// It does not, and should have by now.
     Late,
-    /// It is to show it by then.
+    /// It must show it by then.
     Due(Time),
 }
 
@@ -44,7 +44,7 @@ impl SharedMemory {
         self.owed.insert((due, self.debts), debt);
     }
 
-    /// Judges what was to be shown before `now`.
+    /// Judges the writes with a deadline before `now`.
     pub(super) fn check_bound(&mut self, now: Time, found: &mut Vec<Violation>) {
         while let Some(first) = self.owed.first_entry() {
             let due = first.key().0;
@@ -108,7 +108,7 @@ impl SharedMemory {
         }
         if !late.is_empty() {
             let text = format!(
-                "{} did not come to show what robot {} wrote to {} at {} within {}",
+                "{} did not show what robot {} wrote to {} at {} within {}",
                 robot_list(&late),
                 debt.stamp.writer,
                 debt.address,

@@ -55,7 +55,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Takes note of a write.
+    /// Records a write.
     pub fn write(&mut self, stamp: Stamp, value: i64, at: Time) {
         self.written.insert(stamp, (value, at));
     }
@@ -78,7 +78,7 @@ impl Element {
         known.is_some_and(|&(known, _)| known != value)
     }
 
-    /// Takes note of what a robot shows from now on; gives the later write that it showed before.
+    /// Records the write that a robot shows from now on; returns the later write that it showed before, if any.
     pub fn show(&mut self, robot: RobotId, stamp: Stamp, now: Time) -> Option<Stamp> {
         match self.shown.insert(robot, Shown::Write(stamp, now)) {
             Some(Shown::Write(before, _)) if before > stamp => Some(before),

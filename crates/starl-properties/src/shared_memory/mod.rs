@@ -1,10 +1,8 @@
-//! Shared memory (thesis, section 3.3.2): eventual consistency, and that what is shown was written and
-//! never goes back.
+//! Shared memory (thesis, section 3.3.2): eventual consistency, integrity and order.
 //!
-//! Convergence is judged with a bound, as nothing else can be judged in finite time: a robot shows a
-//! write, or a later one, no later than the bound after it was written, or after the last moment at which
-//! something excused it. It is owed by those that have it: by each robot that shows the write to each
-//! robot that has the memory, as long as both are well and no partition can have kept them apart.
+//! Convergence is judged with a bound, because only a bound can be judged in finite time: a robot shows a write, or a
+//! later one, no later than the bound after it was written, or after the last excuse. Each robot that shows the write
+//! must pass it on to each robot that has the memory, as long as both work and no partition can have separated them.
 
 mod causality;
 mod debt;
@@ -149,7 +147,7 @@ impl SharedMemory {
         }
     }
 
-    /// A robot has a memory. If it did not have it before, all that is in it is to reach it.
+    /// A robot has a memory. If it did not have it before, everything that is in it is to reach it.
     fn joined(&mut self, port: Port, robot: RobotId, at: Time) {
         let memory = self.memories.entry(port).or_default();
         if memory.members.contains_key(&robot) {

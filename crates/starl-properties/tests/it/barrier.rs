@@ -48,7 +48,7 @@ fn properties(story: &Story) -> Vec<String> {
 }
 
 #[test]
-fn those_that_wait_for_each_other_keep_all() {
+fn robots_that_wait_for_each_other_satisfy_all_properties() {
     let mut story = robots();
     for robot in 0..3 {
         arrives(&mut story, 1000 * u64::from(robot + 1), robot, Some(2));
@@ -104,7 +104,7 @@ fn a_restarted_robot_arrives_before_it_knows_the_generation() {
 }
 
 #[test]
-fn when_all_have_crashed_generations_start_again() {
+fn generations_restart_when_all_have_crashed() {
     let mut story = robots();
     for robot in 0..3 {
         story.fault(1000, Some(robot), "crash");

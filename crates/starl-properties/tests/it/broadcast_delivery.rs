@@ -62,7 +62,7 @@ fn a_bound_that_has_not_run_out_is_not_judged() {
 }
 
 #[test]
-fn messages_are_told_apart_by_sender_and_number() {
+fn messages_are_identified_by_sender_and_number() {
     let mut story = robot_2_hears_nothing();
     story.broadcasts(1000, 0, 2);
     story.broadcasts(1000, 1, 1);
@@ -218,7 +218,7 @@ fn a_cut_that_is_old_when_another_partition_sets_in_is_still_known_while_it_coun
 }
 
 #[test]
-fn what_is_acknowledged_was_handed_to_all_whatever_has_happened() {
+fn no_fault_excuses_an_acknowledged_message_without_delivery() {
     let acknowledged = |story: &mut Story| {
         let fields = [("number", 1u32.into()), ("incarnation", 7u32.into())];
         story.report(3000, 0, ("broadcast", "acknowledged"), fields);

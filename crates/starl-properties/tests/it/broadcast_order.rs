@@ -35,7 +35,7 @@ fn passes(story: &mut Story, millis: u64, robot: u32, (from, number): (u32, u32)
 }
 
 #[test]
-fn what_was_not_sent_is_not_handed_out() {
+fn unsent_messages_are_not_delivered() {
     let mut story = story();
     sends(&mut story, 1000, 0, 1, "fifo");
     for robot in 1..3 {
@@ -47,7 +47,7 @@ fn what_was_not_sent_is_not_handed_out() {
 }
 
 #[test]
-fn nothing_is_handed_out_twice_unless_the_robot_has_started_again() {
+fn messages_are_delivered_once_per_life() {
     let mut twice = story();
     sends(&mut twice, 1000, 0, 1, "causal");
     for robot in 1..3 {
@@ -63,7 +63,7 @@ fn nothing_is_handed_out_twice_unless_the_robot_has_started_again() {
 }
 
 #[test]
-fn a_senders_messages_are_handed_out_as_they_were_sent() {
+fn a_senders_messages_are_delivered_in_order() {
     let mut story = story();
     sends(&mut story, 1000, 0, 1, "fifo");
     sends(&mut story, 1010, 0, 2, "fifo");
@@ -74,7 +74,7 @@ fn a_senders_messages_are_handed_out_as_they_were_sent() {
     assert_only(&story.verdict(9000), "broadcast.fifo", 1200, &[1, 0]);
 }
 
-/// Robot 0 sends, robot 1 answers, robot 2 is handed the answer.
+/// Robot 0 sends, robot 1 answers, robot 2 delivers the answer.
 fn answer() -> Story {
     let mut story = story();
     sends(&mut story, 1000, 0, 1, "causal");
@@ -85,7 +85,7 @@ fn answer() -> Story {
 }
 
 #[test]
-fn an_answer_comes_after_what_it_answers() {
+fn an_answer_is_delivered_after_its_question() {
     let mut before = answer();
     handed(&mut before, 1300, 2, (1, 1));
     handed(&mut before, 1400, 2, (0, 1));
@@ -102,7 +102,7 @@ fn an_answer_comes_after_what_it_answers() {
 }
 
 #[test]
-fn what_was_passed_over_is_not_handed_out_any_more() {
+fn messages_that_were_passed_over_are_not_delivered() {
     let mut passed = answer();
     passes(&mut passed, 1300, 2, (0, 1));
     handed(&mut passed, 1301, 2, (1, 1));
@@ -116,7 +116,7 @@ fn what_was_passed_over_is_not_handed_out_any_more() {
     );
 }
 
-/// Robot 0 sends a message in each of two lives; robot 1 is handed both and sends one.
+/// Robot 0 sends a message in each of two lives; robot 1 delivers both and sends one.
 fn two_lives() -> Story {
     let mut story = story();
     sends(&mut story, 1000, 0, 1, "causal");
@@ -145,7 +145,7 @@ fn handed_of_second_life(story: &mut Story, millis: u64, robot: u32) {
 }
 
 #[test]
-fn what_an_earlier_life_sent_is_not_owed_after_something_of_a_later_one() {
+fn messages_of_an_earlier_life_are_not_required_after_one_of_a_later_life() {
     let causal = |story: &Story| -> Vec<u64> {
         let verdict = story.verdict(2500);
         let found = verdict
@@ -166,7 +166,7 @@ fn what_an_earlier_life_sent_is_not_owed_after_something_of_a_later_one() {
 }
 
 #[test]
-fn messages_that_know_nothing_of_each_other_come_in_any_causal_order() {
+fn concurrent_messages_may_be_delivered_in_any_order() {
     let mut story = story();
     sends(&mut story, 1000, 0, 1, "causal");
     sends(&mut story, 1000, 1, 1, "causal");
@@ -177,7 +177,7 @@ fn messages_that_know_nothing_of_each_other_come_in_any_causal_order() {
     assert_none(&story.verdict(9000));
 }
 
-/// Robots 0 and 1 each send a message, which all are handed in the order of `places`.
+/// Robots 0 and 1 each send a message, which all deliver in the order of `places`.
 fn ordered(places: [[(u32, u32); 2]; 3]) -> Story {
     let mut story = story();
     for robot in 0..3 {
@@ -196,7 +196,7 @@ fn ordered(places: [[(u32, u32); 2]; 3]) -> Story {
 }
 
 #[test]
-fn all_are_handed_the_same_in_one_order() {
+fn all_robots_deliver_the_same_order() {
     let (a, b) = ((0, 1), (1, 1));
     assert_none(&ordered([[a, b], [a, b], [a, b]]).verdict(9000));
     let violations = ordered([[a, b], [b, a], [a, b]]).verdict(9000);
@@ -208,7 +208,7 @@ fn all_are_handed_the_same_in_one_order() {
 }
 
 #[test]
-fn nothing_is_left_out_between_two_messages_unless_it_is_said() {
+fn omissions_must_be_reported_as_gaps() {
     let mut story = ordered([[(0, 1), (1, 1)]; 3]);
     sends(&mut story, 2000, 2, 1, "total");
     for robot in [0, 1, 2] {
@@ -246,7 +246,7 @@ fn left_out() -> Story {
 }
 
 #[test]
-fn all_of_a_majority_are_handed_what_one_of_it_sends() {
+fn a_majority_delivers_the_messages_of_its_robots() {
     assert_only(
         &left_out().verdict(9000),
         "broadcast.agreement",
@@ -289,7 +289,7 @@ fn gives_up(story: &mut Story, millis: u64, robot: u32, number: u32) {
 }
 
 #[test]
-fn what_is_given_up_is_excused_only_where_a_fault_was_near() {
+fn giving_up_is_excused_only_near_a_fault() {
     let mut story = ordered([[(0, 1), (1, 1)]; 3]);
     story.fault(2000, Some(1), "stuck motor");
     let mut near = story.clone();
@@ -335,7 +335,7 @@ fn a_corruption_excuses_for_a_while() {
 }
 
 #[test]
-fn without_order_messages_come_in_any_order_and_once() {
+fn unordered_messages_are_delivered_once_in_any_order() {
     let mut story = story();
     for number in 1..=3 {
         story.broadcasts(1000, 0, number);

@@ -91,7 +91,7 @@ fn standing_without_a_leader_for_too_long_is_reported() {
         assert_only(&verdict, "election.progress", 5000, &[2]);
         assert_eq!(
             verdict[0].text,
-            "robot 2 stands for election and has no leader for 5s"
+            "robot 2 is a candidate and has had no leader for 5s"
         );
     }
 }
@@ -115,7 +115,7 @@ fn with_leases_a_robot_without_a_majority_has_no_leader() {
 
 /// Robot 0 votes, robot 1 has restarted, robot 2 is down: no other robot knows the promises of robot 2.
 #[test]
-fn with_leases_robots_that_wait_for_one_that_remembers_have_no_leader() {
+fn with_leases_robots_that_wait_for_one_with_memory_need_no_leader() {
     let mut story = three("leases");
     for robot in 0..3 {
         story.report(1000, robot, ("election", "vote"), [("anew", false.into())]);

@@ -115,7 +115,7 @@ fn an_epoch_before_the_last_is_reported() {
 }
 
 #[test]
-fn a_minority_that_forgot_is_no_excuse_and_a_majority_is() {
+fn lost_memory_of_a_majority_is_an_excuse_and_of_a_minority_is_not() {
     for (crashed, is_excused) in [(&[2][..], false), (&[1, 2], true)] {
         let mut story = two_leaders();
         for &robot in crashed {
@@ -145,7 +145,7 @@ fn two_leaders_at_once_are_reported() {
 }
 
 #[test]
-fn a_leader_that_has_crashed_leads_no_more() {
+fn a_crashed_leader_no_longer_leads() {
     let mut story = three();
     shows(&mut story, 1000, 1, 1, 5);
     story.fault(1500, Some(1), "crash");

@@ -73,7 +73,7 @@ fn two_may_hold_a_resource_after_a_corruption() {
 }
 
 #[test]
-fn what_falls_may_touch() {
+fn falling_robots_may_touch_others() {
     let mut story = Story::of(&[crate::support::FLYER, crate::support::GROUND]);
     let above = at(0.0, 0.0).at_height(2.0);
     story.moved(1000, 0, above).moved(1000, 1, at(3.0, 0.0));

@@ -36,7 +36,7 @@ fn delivery_far_from_the_area_is_reported_once() {
 }
 
 #[test]
-fn delivery_inside_is_what_it_is_for() {
+fn delivery_inside_is_correct() {
     let mut story = delivered(circle(), 1550);
     story.stays(0, 20_000, 1, at(0.9, 0.0));
     assert_none(&story.verdict(20_000));

@@ -78,7 +78,7 @@ fn a_robot_that_is_outside_for_a_part_of_the_time_is_not_owed_the_message() {
 }
 
 #[test]
-fn where_a_robot_was_before_and_goes_after_does_not_matter() {
+fn positions_before_and_after_do_not_matter() {
     let mut story = sent_to(circle());
     story.stays(0, 600, 1, at(2.0, 0.0));
     story.stays(700, 6100, 1, at(0.0, 0.0));

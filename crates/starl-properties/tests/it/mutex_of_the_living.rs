@@ -1,5 +1,5 @@
-//! A lease mutex frees what a dead robot held, and goes on while a majority of its arbiters is up, ready and together.
-//! Each excuse from that is tried with a run that it must not excuse.
+//! A lease mutex frees the resources of a crashed robot, and continues while a majority of its arbiters is up, ready
+//! and connected. Each excuse is also tried with a run that it must not excuse.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::event::Value;
@@ -40,7 +40,7 @@ fn numbered(story: &mut Story, millis: u64, robot: u32, number: i64) {
 
 /// The bug that no campaign saw: the lease of a holder that has died never ends.
 #[test]
-fn a_lease_that_outlives_its_holder_is_reported_though_the_holder_stays_dead() {
+fn a_lease_that_outlives_its_crashed_holder_is_reported() {
     let mut story = story(3);
     story
         .locks(1000, 4, "acquire", "a")
@@ -57,7 +57,7 @@ fn a_lease_that_outlives_its_holder_is_reported_though_the_holder_stays_dead() {
 }
 
 #[test]
-fn a_minority_need_not_go_on_and_a_majority_has_to_as_soon_as_it_is_ready() {
+fn only_a_ready_majority_must_continue() {
     let mut story = story(3);
     for robot in [2, 3, 4] {
         story.fault(2000, Some(robot), "crash");
@@ -90,7 +90,7 @@ fn with_storage_a_robot_need_not_be_ready_again() {
 }
 
 #[test]
-fn the_part_with_a_majority_has_to_go_on() {
+fn the_part_with_a_majority_must_continue() {
     let mut story = story(3);
     story.fault(2000, None, "partition");
     for (number, (from, to)) in [(0, 1), (1, 2), (3, 4)].into_iter().enumerate() {

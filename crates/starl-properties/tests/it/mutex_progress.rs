@@ -23,7 +23,7 @@ fn a_request_without_overlap_is_granted_in_time() {
     assert_only(&verdict, NON_INTERFERENCE, 6000, &[0]);
     assert_eq!(
         verdict[0].text,
-        "robot 0 did not get what was asked for within 5s, though no other robot holds or requests any of it"
+        "robot 0 did not get the requested resources within 5s, though no other robot holds or requests any of it"
     );
     late.locks(6000, 0, "enter", "a")
         .locks(6000, 0, "enter", "b");
@@ -31,7 +31,7 @@ fn a_request_without_overlap_is_granted_in_time() {
 }
 
 #[test]
-fn what_is_held_may_be_waited_for() {
+fn waiting_for_a_held_resource_is_correct() {
     let mut story = story();
     story.locks(1000, 1, "enter", "b");
     story

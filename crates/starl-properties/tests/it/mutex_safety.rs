@@ -46,7 +46,7 @@ fn one_after_the_other_is_as_it_should_be() {
 }
 
 #[test]
-fn a_crash_ends_what_a_robot_holds() {
+fn a_crash_ends_the_holds_of_a_robot() {
     let mut story = story();
     story
         .locks(1000, 0, "enter", "a")
@@ -110,7 +110,7 @@ fn numbers_that_do_not_grow_are_reported() {
 }
 
 #[test]
-fn where_clocks_are_wrong_numbers_may_come_late_but_never_twice() {
+fn with_wrong_clocks_numbers_may_be_late_but_are_unique() {
     let mut story = drifting(1e6);
     story.leases(1000, 0, "a", 5).leases(2000, 1, "a", 4);
     assert_none(&story.verdict(5000));

@@ -23,7 +23,7 @@ fn two_robots_that_run_into_each_other_are_one_collision() {
 }
 
 #[test]
-fn bumping_on_is_the_same_collision_until_the_bodies_have_parted() {
+fn repeated_contacts_are_one_collision_until_the_bodies_separate() {
     let mut story = Story::of_ground_robots(2);
     story.stays(0, 2000, 0, at(0.0, 0.0));
     story.stays(0, 1000, 1, at(0.45, 0.0));
@@ -31,7 +31,7 @@ fn bumping_on_is_the_same_collision_until_the_bodies_have_parted() {
     story.collided(350, 1, Hit::Robot(RobotId(0)));
     story.collided(550, 0, WITH_ROBOT_1);
     assert_only(&story.clone().verdict(2000), "no_collision", 150, &[0, 1]);
-    // 0.12 m between the bodies: they have parted.
+    // 0.12 m between the bodies: they have partitioned.
     story.moved(1100, 1, at(0.52, 0.0));
     story.collided(1150, 1, Hit::Robot(RobotId(0)));
     let verdict = story.verdict(2000);
@@ -99,7 +99,7 @@ fn bodies_that_just_touch_do_not_overlap() {
 }
 
 #[test]
-fn a_flyer_passes_over_a_ground_robot_but_not_through_it() {
+fn a_drone_passes_over_a_ground_robot_but_not_through_it() {
     for (height, passes) in [(0.11, true), (0.09, false)] {
         let mut story = Story::of(&[GROUND, FLYER]);
         story.moved(100, 0, at(0.0, 0.0));
@@ -121,7 +121,7 @@ fn crash_landing() -> Story {
 }
 
 #[test]
-fn what_a_crashed_flyer_falls_on_has_not_collided() {
+fn a_robot_under_a_falling_drone_has_not_collided() {
     let mut story = crash_landing();
     story.collided(1500, 0, WITH_ROBOT_1);
     // It lies on the robot, which bumps against it as it drives away.
@@ -160,7 +160,7 @@ fn a_drone_that_restarts_while_falling_and_descends_by_itself_collides() {
 }
 
 #[test]
-fn a_drone_that_restarts_on_a_robot_and_comes_back_collides() {
+fn a_drone_that_restarts_on_a_robot_and_returns_collides() {
     for flies_off in [false, true] {
         let mut story = crash_landing();
         story.stays(3100, 4000, 0, at(0.0, 0.0));

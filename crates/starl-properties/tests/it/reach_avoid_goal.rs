@@ -24,7 +24,7 @@ fn done_far_from_the_target_is_reported() {
 }
 
 #[test]
-fn the_vicinity_and_what_the_poses_leave_open_are_granted() {
+fn the_vicinity_and_the_uncertainty_of_poses_are_granted() {
     // 0.1 m of vicinity and 0.049 m that a body can fall in 100 ms.
     assert_none(&done_at(GROUND, at(0.0, 0.0), at(0.149, 0.0)).verdict(4000));
     let verdict = done_at(GROUND, at(0.0, 0.0), at(0.15, 0.0)).verdict(4000);

@@ -1,5 +1,5 @@
-//! A robot whose true position enters the unsafe set of its ReachAvoid violates safety, whatever the
-//! primitive itself believes.
+//! A robot whose true position enters the unsafe set of its ReachAvoid violates safety, independent of the primitive's
+//! belief.
 
 use crate::support::{FLYER, Story, assert_none, assert_only, at};
 use starl_core::geometry::HeightSpan;

@@ -42,7 +42,7 @@ fn story(operations: &[(u32, &'static str, u64, u64, i64)]) -> Story {
 }
 
 #[test]
-fn one_after_the_other_each_reads_what_was_written_last() {
+fn sequential_reads_return_the_last_write() {
     let good = story(&[
         (0, "read", 100, 200, 0),
         (0, "write", 300, 400, 5),
@@ -54,7 +54,7 @@ fn one_after_the_other_each_reads_what_was_written_last() {
 }
 
 #[test]
-fn what_is_over_cannot_be_read_any_more() {
+fn overwritten_values_cannot_be_read() {
     let bad = story(&[
         (0, "write", 300, 400, 5),
         (1, "write", 700, 800, 6),
@@ -66,7 +66,7 @@ fn what_is_over_cannot_be_read_any_more() {
 }
 
 #[test]
-fn what_was_never_written_cannot_be_read() {
+fn unwritten_values_cannot_be_read() {
     let bad = story(&[(0, "write", 300, 400, 5), (2, "read", 350, 1000, 7)]);
     assert_only(&bad.verdict(2000), "register.linearizability", 1000, &[2]);
 }
@@ -95,7 +95,7 @@ fn a_later_read_does_not_return_the_earlier_value() {
 }
 
 #[test]
-fn what_a_robot_wrote_when_it_crashed_may_take_effect_later_once() {
+fn a_write_during_a_crash_may_take_effect_later_once() {
     let crash = |mut story: Story| {
         story.fault(500, Some(0), "crash");
         story
@@ -126,7 +126,7 @@ fn registers_are_judged_each_for_itself() {
 }
 
 #[test]
-fn what_a_majority_forgets_is_excused_and_a_corruption_too() {
+fn a_forgetful_majority_and_a_corruption_are_excused() {
     let bad = || story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
     let mut lost = bad();
     for robot in 0..3 {
@@ -144,7 +144,7 @@ fn what_a_majority_forgets_is_excused_and_a_corruption_too() {
 }
 
 #[test]
-fn what_storage_holds_is_not_forgotten_until_storage_is_lost() {
+fn stored_values_are_not_forgotten_until_storage_is_lost() {
     let mut kept = story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
     kept.setting.keeps_storage = true;
     for robot in 0..3 {
@@ -182,7 +182,7 @@ fn after_a_majority_forgot(operations: &[(u32, &'static str, u64, u64, i64)]) ->
 }
 
 #[test]
-fn it_is_judged_again_when_a_majority_is_back_though_a_robot_stays_dead() {
+fn it_is_judged_again_when_a_majority_is_back() {
     // A write of a lost majority may exist or not, and its later state stays.
     for found in [0, 5] {
         let reads = [(2, "read", 40_000, 40_100, found)];
@@ -208,7 +208,7 @@ fn it_is_judged_again_when_a_majority_is_back_though_a_robot_stays_dead() {
 }
 
 #[test]
-fn it_is_not_judged_while_what_was_lost_may_come_back() {
+fn it_is_not_judged_while_lost_values_may_reappear() {
     let wrong = [
         (2, "write", 40_000, 40_100, 7),
         (0, "read", 41_000, 41_100, 5),
@@ -232,7 +232,7 @@ fn it_is_not_judged_while_what_was_lost_may_come_back() {
 }
 
 #[test]
-fn operations_at_the_same_time_do_not_say_what_a_register_holds() {
+fn concurrent_operations_do_not_define_the_value_of_a_register() {
     let crowded = [
         (2, "write", 40_000, 40_300, 7),
         (0, "write", 40_100, 40_200, 8),

@@ -116,7 +116,7 @@ fn robots_that_list_each_other_and_differ() {
         found.contains(&"registration.soundness".to_string()),
         "{found:?}"
     );
-    // Now 0 has accepted it, but goes on showing the old one.
+    // Now 0 has accepted it, but continues showing the old one.
     let mut story = robots(3);
     agree(&mut story, 400, (400, 0, &[0, 1, 2]));
     for robot in 0..3 {
@@ -177,7 +177,7 @@ fn faults_put_it_off() {
 }
 
 #[test]
-fn what_a_corruption_makes_up_is_not_judged() {
+fn invented_state_is_not_judged() {
     let mut story = robots(2);
     agree(&mut story, 400, (400, 0, &[0, 1]));
     story.fault(1000, Some(1), "corrupt state");

@@ -41,7 +41,7 @@ fn the_second_may_not_be_shown_without_the_first() {
 }
 
 #[test]
-fn a_later_write_stands_for_the_first() {
+fn a_later_write_satisfies_the_dependency() {
     let mut story = two_writes();
     story.shows(2500, 2, "write", "y", (2500, 2, 7));
     story.shows(3000, 1, "update", "y", (2500, 2, 7));
@@ -50,7 +50,7 @@ fn a_later_write_stands_for_the_first() {
 }
 
 #[test]
-fn what_depends_on_what_was_overwritten_depends_on_what_that_did() {
+fn dependencies_are_transitive_over_overwritten_values() {
     let mut story = two_writes();
     let z = ("variable", Value::Text("z".into()));
     story.report(100, 0, ("shared_memory", "causal"), [z]);

@@ -1,5 +1,4 @@
-//! Every robot that has a shared memory and is up and linked comes to show the latest write within the
-//! bound.
+//! Every connected robot with a shared memory shows the latest write within the bound.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::Event;
@@ -19,17 +18,17 @@ fn robot_2_shows_nothing() -> Story {
 }
 
 #[test]
-fn a_robot_that_does_not_come_to_show_a_write_is_reported_once() {
+fn a_robot_that_misses_a_write_is_reported_once() {
     let verdict = robot_2_shows_nothing().verdict(60_000);
     assert_only(&verdict, PROPERTY, 6000, &[0, 2]);
     assert_eq!(
         verdict[0].text,
-        "robot 2 did not come to show what robot 0 wrote to x at 1.000s within 5s"
+        "robot 2 did not show what robot 0 wrote to x at 1.000s within 5s"
     );
 }
 
 #[test]
-fn all_that_do_not_are_named_together_and_those_without_the_memory_are_not() {
+fn all_robots_that_miss_a_write_are_named_together() {
     let mut story = Story::of_ground_robots(4);
     story.setting.properties.shared_memory_bound = seconds(5);
     for robot in 0..3 {
@@ -118,7 +117,7 @@ fn a_robot_that_was_down_has_the_bound_from_its_restart() {
 }
 
 #[test]
-fn a_robot_that_loses_what_it_showed_is_to_show_it_again() {
+fn a_robot_that_loses_a_write_must_show_it_again() {
     let mut story = robot_2_shows_nothing();
     story.shows(1030, 2, "update", "x", (1000, 0, 5));
     story.fault(20_000, Some(2), "crash");
@@ -128,7 +127,7 @@ fn a_robot_that_loses_what_it_showed_is_to_show_it_again() {
 }
 
 #[test]
-fn a_robot_that_joins_late_is_owed_what_there_is() {
+fn a_late_joiner_must_get_all_values() {
     for (joined, late) in [(30_000, 35_000), (3000, 8000)] {
         let mut story = robot_2_shows_nothing();
         story.shows(1030, 2, "update", "x", (1000, 0, 5));
@@ -137,14 +136,14 @@ fn a_robot_that_joins_late_is_owed_what_there_is() {
         assert_only(&verdict, PROPERTY, late, &[0, 3]);
         assert_eq!(
             verdict[0].text,
-            "robot 3 did not come to show what robot 0 wrote to x at 1.000s within 5s"
+            "robot 3 did not show what robot 0 wrote to x at 1.000s within 5s"
         );
     }
 }
 
 /// Of many writes that a robot could not get to know it is owed the latest.
 #[test]
-fn what_was_written_while_it_was_apart_is_one_debt() {
+fn writes_during_a_partition_have_one_deadline() {
     let mut story = robot_2_shows_nothing();
     story.fault(900, None, "partition");
     story.sends(1000, 0, 0, 1);
@@ -271,7 +270,7 @@ fn a_partition_long_past_excuses_no_robot() {
 }
 
 #[test]
-fn a_corrupted_memory_is_not_judged_for_what_was_written_before_or_until_it_speaks() {
+fn a_corrupted_memory_is_judged_after_its_next_report() {
     let mut story = robot_2_shows_nothing();
     story.fault(2000, Some(2), "corrupt state");
     story.shows(8000, 0, "write", "x", (8000, 0, 6));
@@ -285,7 +284,7 @@ fn a_corrupted_memory_is_not_judged_for_what_was_written_before_or_until_it_spea
 
 /// Robots must agree on invented state of a corruption like on any other.
 #[test]
-fn garbage_that_spreads_is_to_reach_all() {
+fn garbage_that_spreads_must_reach_all() {
     let mut story = robot_2_shows_nothing();
     story.shows(1030, 2, "update", "x", (1000, 0, 5));
     story.fault(2000, Some(0), "corrupt state");
@@ -293,7 +292,7 @@ fn garbage_that_spreads_is_to_reach_all() {
     assert_only(&story.verdict(60_000), PROPERTY, 8000, &[3, 2]);
 }
 
-/// A scenario in which no two partitions are a bound apart is judged all the same.
+/// A scenario in which no two partitions are a bound apart is judged too.
 #[test]
 fn constant_partitions_do_not_excuse_those_that_hear_each_other() {
     let mut story = robot_2_shows_nothing();

@@ -10,7 +10,7 @@ fn one_write() -> Story {
 }
 
 #[test]
-fn what_was_written_may_be_shown() {
+fn written_values_may_be_shown() {
     let mut story = one_write();
     story.shows(1030, 1, "update", "x", (1000, 0, 5));
     story.shows(9000, 2, "update", "x", (1000, 0, 5));
@@ -36,7 +36,7 @@ fn another_value_time_writer_or_variable_may_not() {
 }
 
 #[test]
-fn it_says_what_was_seen() {
+fn the_violation_names_the_observation() {
     let mut story = one_write();
     story.shows(1030, 1, "update", "pos[]", (1000, 2, 6));
     let verdict = story.verdict(10_000);
@@ -96,7 +96,7 @@ fn other_faults_excuse_nothing() {
     }
 }
 
-/// Everyone has long shown later writes, so a datagram that was under way all that time is no forgery; what
+/// Everyone has long shown later writes, so a datagram that was under way all the time is not a forgery; what
 /// is forgotten counts as written.
 #[test]
 fn old_writes_need_not_be_remembered() {

@@ -15,7 +15,7 @@ fn two_writes() -> Story {
 }
 
 #[test]
-fn going_on_is_right() {
+fn later_writes_are_correct() {
     assert_none(&two_writes().verdict(10_000));
 }
 
@@ -34,7 +34,7 @@ fn going_back_is_reported() {
 
 /// A robot whose clock is behind knows of a write, and writes without regard to it.
 #[test]
-fn a_write_that_counts_as_earlier_than_what_its_writer_shows_is_reported() {
+fn a_write_earlier_than_the_writers_value_is_reported() {
     let mut story = two_writes();
     story.shows(3000, 1, "write", "x", (1500, 1, 7));
     assert_only(&story.verdict(10_000), "shared_memory.order", 3000, &[1]);
@@ -65,7 +65,7 @@ fn of_writes_at_one_time_that_of_the_greater_number_is_the_later() {
 }
 
 #[test]
-fn variables_and_elements_are_told_apart() {
+fn variables_and_elements_are_judged_separately() {
     let mut story = two_writes();
     story.shows(500, 0, "write", "y", (500, 0, 1));
     story.shows(600, 0, "write", "x[]", (600, 0, 1));
@@ -77,7 +77,7 @@ fn variables_and_elements_are_told_apart() {
 }
 
 #[test]
-fn a_restarted_robot_starts_again() {
+fn a_restarted_robot_starts_from_the_beginning() {
     let mut story = two_writes();
     story.fault(2100, Some(1), "crash");
     story.fault(2200, Some(1), "restart");
@@ -86,7 +86,7 @@ fn a_restarted_robot_starts_again() {
 }
 
 #[test]
-fn so_does_one_whose_memory_is_corrupted_but_no_other() {
+fn only_a_corrupted_memory_restarts() {
     for (corrupted, is_violated) in [(1, false), (2, true)] {
         let mut story = two_writes();
         story.fault(2100, Some(corrupted), "corrupt state");

@@ -23,7 +23,7 @@ fn sends(story: &mut Story, number: u32, to: u32) {
 }
 
 #[test]
-fn what_does_not_arrive_is_reported_when_its_time_is_up() {
+fn a_message_that_does_not_arrive_is_reported_at_its_deadline() {
     let mut story = sent(1, 2);
     // Numbers are counted for each receiver.
     sends(&mut story, 1, 1);
@@ -38,7 +38,7 @@ fn what_does_not_arrive_is_reported_when_its_time_is_up() {
 }
 
 #[test]
-fn what_is_given_up_is_reported_at_once() {
+fn a_message_given_up_is_reported_at_once() {
     let mut story = sent(1, 2);
     let fields = [
         ("number", 1u32.into()),
@@ -65,7 +65,7 @@ fn a_receiver_that_was_down_excuses_and_another_robot_does_not() {
 }
 
 #[test]
-fn what_comes_twice_is_reported_unless_the_receiver_has_started_again() {
+fn a_second_delivery_is_reported_unless_the_receiver_has_restarted() {
     let mut story = sent(1, 2);
     story.delivers(1100, 2, "unicast", (0, 1));
     let mut again = story.clone();
@@ -78,7 +78,7 @@ fn what_comes_twice_is_reported_unless_the_receiver_has_started_again() {
 }
 
 #[test]
-fn what_was_sent_to_another_robot_is_not_handed_out() {
+fn messages_to_other_robots_are_not_delivered() {
     let mut story = sent(1, 2);
     story.delivers(1100, 2, "unicast", (0, 1));
     story.delivers(1200, 1, "unicast", (0, 1));
@@ -86,7 +86,7 @@ fn what_was_sent_to_another_robot_is_not_handed_out() {
 }
 
 #[test]
-fn what_is_acknowledged_has_arrived_whatever_has_happened() {
+fn no_fault_excuses_an_acknowledged_message_that_did_not_arrive() {
     let acknowledged = |story: &mut Story| {
         let fields = [
             ("number", 1u32.into()),

@@ -1,15 +1,15 @@
-//! One robot's turn in a slot of time: its node is called for all that happens to it, in the order of time.
+//! One robot's turn in a slot of time: its node handles the robot's inputs in the order of time.
 
 use super::inbox::{Delivery, Transmission};
-use super::mind::{Account, Frozen, Senses};
-use super::outlet::Desk;
+use super::outlet::SimulatorOutlet;
 use super::shared::{Kind, Shared, Window};
+use super::simulated_robot::{Account, Frozen, Senses};
 use super::{discover, position};
 use starl_core::{Event, Input, Message, Payload, Sensors, Time};
-use starl_host::{Happening, Node, Outlet, Snapshot};
+use starl_host::{Node, NodeInput, Outlet, Snapshot};
 use starl_motion::sensing::Readings;
 
-/// All that one robot's turn touches.
+/// The state used by one robot's turn.
 pub struct Turn<'a> {
     /// The slot of time under way.
     pub window: Window,
@@ -21,23 +21,23 @@ pub struct Turn<'a> {
     pub readings: &'a mut Readings,
     /// Whether `readings` are this robot's.
     pub sensed: bool,
-    pub desk: Desk<'a>,
+    pub outlet: SimulatorOutlet<'a>,
 }
 
 impl Turn<'_> {
-    /// Takes all that happens in this slot, and returns when something happens next, arrivals aside. `arrivals`
-    /// is room for work.
+    /// Handles all inputs of this slot, and returns the time of the next one, without arrivals. `arrivals` is scratch
+    /// memory.
     pub fn run(&mut self, arrivals: &mut Vec<Delivery>) -> Time {
         if self.window.from == Time::ZERO {
-            let pose = self.desk.state.pose;
-            self.desk.record(Time::ZERO, Event::Moved(pose));
+            let pose = self.outlet.state.pose;
+            self.outlet.record(Time::ZERO, Event::Moved(pose));
         }
-        self.desk.shared.inboxes.of(self.node.id(), arrivals);
+        self.outlet.shared.inboxes.of(self.node.id(), arrivals);
         if !self.node.condition().down {
             self.begin();
         }
         self.take_in_order(arrivals);
-        next_due(self.node, self.desk.account, *self.next_estimate)
+        next_due(self.node, self.outlet.account, *self.next_estimate)
     }
 
     /// The first inputs: the start, paths that planners have found, and readings.
@@ -45,12 +45,12 @@ impl Turn<'_> {
         if !self.node.condition().started && self.node.next_timeout() < self.window.to {
             let from = self.window.from.max(self.node.next_timeout());
             self.locate(from);
-            self.handle(from, Happening::Start);
+            self.handle(from, NodeInput::Start);
         }
-        if self.window.from == self.step && !self.desk.account.plans.is_empty() {
+        if self.window.from == self.step && !self.outlet.account.plans.is_empty() {
             let from = self.step;
-            for (job, path) in std::mem::take(&mut self.desk.account.plans) {
-                self.handle(from, Happening::Planned { job, path });
+            for (job, path) in std::mem::take(&mut self.outlet.account.plans) {
+                self.handle(from, NodeInput::Planned { job, path });
             }
         }
         if self.node.next_activation() < self.window.to {
@@ -70,47 +70,47 @@ impl Turn<'_> {
                 *self.next_estimate
             };
             let end = estimate.min(self.window.to);
-            if due(self.node, self.desk.account, arrivals).min() < end {
+            if due(self.node, self.outlet.account, arrivals).min() < end {
                 self.take_until(end, &mut arrivals);
             }
             if estimate >= self.window.to {
                 return;
             }
-            *self.next_estimate += self.desk.shared.scenario.positioning.period;
+            *self.next_estimate += self.outlet.shared.scenario.positioning.period;
             self.locate(estimate);
-            self.handle(estimate, Happening::Located);
+            self.handle(estimate, NodeInput::Located);
         }
     }
 
     /// The inputs before `end`, while the robot senses nothing new.
     fn take_until(&mut self, end: Time, arrivals: &mut &[Delivery]) {
         let readings = self.sensed.then_some(&*self.readings);
-        let snapshot = snapshot(self.desk.shared, self.desk.kind, self.senses, readings);
+        let snapshot = snapshot(self.outlet.shared, self.outlet.kind, self.senses, readings);
         loop {
-            let due = due(self.node, self.desk.account, arrivals);
+            let due = due(self.node, self.outlet.account, arrivals);
             let at = due.min();
             if at >= end {
                 return;
             }
             let happening = if at == due.stored {
-                let store = self.desk.account.store.as_mut();
+                let store = self.outlet.account.store.as_mut();
                 let Some(job) = store.and_then(|store| store.finish()) else {
                     return;
                 };
-                Happening::Stored { job }
+                NodeInput::Stored { job }
             } else if at == due.message {
                 let Some((delivery, rest)) = arrivals.split_first() else {
                     return;
                 };
                 *arrivals = rest;
-                datagram(self.desk.shared.inboxes.transmission(delivery))
+                datagram(self.outlet.shared.inboxes.transmission(delivery))
             } else if at == due.order {
-                let (_, order) = self.desk.account.orders.remove(0);
-                Happening::Input(Input::Order(order))
+                let (_, order) = self.outlet.account.orders.remove(0);
+                NodeInput::Input(Input::Order(order))
             } else {
-                Happening::Timeout
+                NodeInput::Timeout
             };
-            self.node.handle(at, happening, &snapshot, &mut self.desk);
+            self.node.handle(at, happening, &snapshot, &mut self.outlet);
         }
     }
 
@@ -119,27 +119,27 @@ impl Turn<'_> {
         if self.senses.are_frozen {
             return;
         }
-        let Desk { shared, state, .. } = self.desk;
+        let SimulatorOutlet { shared, state, .. } = self.outlet;
         let estimate = position::estimate(shared, self.node.id(), state, self.step, at);
-        self.node.locate(at, estimate, &mut self.desk);
+        self.node.locate(at, estimate, &mut self.outlet);
         if !shared.hidden.is_empty() {
-            let range = self.desk.kind.sensors.discovery_range;
+            let range = self.outlet.kind.sensors.discovery_range;
             let found = discover::discover(shared, self.node.id(), state, range, self.senses);
             for obstacle in found {
-                self.desk.record(at, Event::Discovered(obstacle));
+                self.outlet.record(at, Event::Discovered(obstacle));
             }
         }
     }
 
     /// Reads the sensors that the robot carries.
     fn sense(&mut self) {
-        let Desk {
+        let SimulatorOutlet {
             shared,
             state,
             kind,
             robot,
             ..
-        } = self.desk;
+        } = self.outlet;
         let readings = &mut *self.readings;
         if let Some(frozen) = &self.senses.frozen {
             readings.clear();
@@ -158,11 +158,11 @@ impl Turn<'_> {
         }
     }
 
-    fn handle(&mut self, at: Time, happening: Happening) {
-        let Turn { node, desk, .. } = self;
+    fn handle(&mut self, at: Time, happening: NodeInput) {
+        let Turn { node, outlet, .. } = self;
         let readings = self.sensed.then_some(&*self.readings);
-        let snapshot = snapshot(desk.shared, desk.kind, self.senses, readings);
-        node.handle(at, happening, &snapshot, desk);
+        let snapshot = snapshot(outlet.shared, outlet.kind, self.senses, readings);
+        node.handle(at, happening, &snapshot, outlet);
     }
 }
 
@@ -181,7 +181,7 @@ impl Due {
     }
 }
 
-/// When something happens to a robot next, arrivals of datagrams aside.
+/// The time of a robot's next input, without arrivals of datagrams.
 #[inline]
 pub fn next_due(node: &Node, account: &Account, next_estimate: Time) -> Time {
     let next = due(node, account, &[]).min();
@@ -203,8 +203,8 @@ fn due(node: &Node, account: &Account, arrivals: &[Delivery]) -> Due {
     }
 }
 
-fn datagram(transmission: &Transmission) -> Happening {
-    Happening::Datagram {
+fn datagram(transmission: &Transmission) -> NodeInput {
+    NodeInput::Datagram {
         sequence: transmission.sequence,
         message: Message {
             from: transmission.from,

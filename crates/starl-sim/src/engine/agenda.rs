@@ -10,7 +10,7 @@ use starl_core::{Duration, Intervention, Point, Time};
 pub struct Due {
     pub at: Time,
     pub what: Intervention,
-    /// Whether it is recorded as an intervention, and not only by what it does to robots.
+    /// Whether it is recorded as an intervention, and not only by its effects on robots.
     pub told: bool,
 }
 
@@ -24,7 +24,7 @@ pub struct Agenda {
 }
 
 impl Agenda {
-    /// The faults and events that a scenario has on schedule or at random. At equal times faults come first.
+    /// The scheduled and random faults and events of a scenario. At equal times faults come first.
     pub fn new(scenario: &Scenario) -> Agenda {
         let faults = fault::timeline(scenario).into_iter().map(|fault| Due {
             at: fault.at,
@@ -59,7 +59,7 @@ impl Agenda {
         }
     }
 
-    /// Adds an intervention behind all that are due at the same time or before.
+    /// Adds an intervention after all those due at the same time or before.
     pub fn apply(&mut self, at: Time, what: Intervention) {
         self.applied.push((at, what.clone()));
         let later = self.list[self.done..].partition_point(|due| due.at <= at);

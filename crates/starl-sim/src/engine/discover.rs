@@ -1,7 +1,7 @@
-//! How a robot comes to know obstacles that are hidden at first.
+//! The discovery of hidden obstacles by robots.
 
-use super::mind::{Knowledge, Senses};
 use super::shared::Shared;
+use super::simulated_robot::{Knowledge, Senses};
 use starl_core::event::Hit;
 use starl_core::geometry::Bounds;
 use starl_core::{Obstacle, RobotId};
@@ -10,7 +10,7 @@ use starl_motion::State;
 /// Obstacles whose distance differs by less than this meet, metres.
 const CORNER: f64 = 1e-3;
 
-/// Hidden obstacles within `range` metres and in line of sight, or touched, become known. Gives those that
+/// Hidden obstacles within `range` metres and in line of sight, or touched, become known. Returns those that
 /// were not known before.
 pub fn discover(
     shared: &Shared,

@@ -5,8 +5,8 @@ use crate::scenario::{Fault, FaultKind, Scenario};
 use starl_core::event::{self, Event};
 use starl_core::{Duration, Random, RobotId, Time};
 
-/// All faults of a run in the order in which they set in. Faults of the same time keep the order of
-/// the scenario; random ones come after those.
+/// All faults of a run in the order of their times. Faults of the same time keep the order of the scenario, followed by
+/// random ones.
 pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
     let mut faults = scenario.faults.schedule.clone();
     let rates = &scenario.faults.rates;
@@ -28,12 +28,12 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
     let robots: Vec<RobotId> = (0..scenario.fleet.len() as u32).map(RobotId).collect();
     for &robot in &robots {
         let id = u64::from(robot.0);
-        let mut both = |at: Time, kind: FaultKind, after: Duration, mend: FaultKind| {
+        let mut both = |at: Time, kind: FaultKind, after: Duration, end: FaultKind| {
             faults.push(Fault { at, kind });
             if !after.is_zero() {
                 faults.push(Fault {
                     at: at + after,
-                    kind: mend,
+                    kind: end,
                 });
             }
         };

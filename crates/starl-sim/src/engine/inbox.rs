@@ -1,5 +1,5 @@
-//! Messages on their way: a calendar of the slots of time in which they will arrive, and the sorted
-//! inboxes of the present slot.
+//! Messages in transit: a calendar of the time slots in which they will arrive, and the sorted inboxes of the current
+//! slot.
 //!
 //! Invariant: a robot receives messages ordered by (time, sender, sequence number), whatever the
 //! order in which they were posted.

@@ -46,7 +46,7 @@ impl Simulation {
         .collect()
     }
 
-    /// The payload of a datagram that arrived in the step made last; none if none of this number did.
+    /// The payload of a datagram that arrived in the last step; none if no datagram with this number did.
     pub fn arrived(&self, from: RobotId, sequence: u32) -> Option<&[u8]> {
         let content = self.shared.inboxes.find(from, sequence)?;
         Some(&content.payload)
@@ -65,17 +65,17 @@ impl Simulation {
 
     /// Whether a robot's motors are stuck.
     pub fn has_stuck_motors(&self, robot: RobotId) -> bool {
-        self.mind(robot).motor_stuck
+        self.member(robot).motor_stuck
     }
 
     /// Whether a robot's sensors and positioning repeat their last readings.
     pub fn has_frozen_sensors(&self, robot: RobotId) -> bool {
-        self.mind(robot).senses.are_frozen
+        self.member(robot).senses.are_frozen
     }
 
     /// The index of the thing that a robot holds.
     pub fn holding(&self, robot: RobotId) -> Option<u32> {
-        self.mind(robot).senses.holding
+        self.member(robot).senses.holding
     }
 
     /// Lets an observer query a robot's program with a handle to the robot in its current state, without
@@ -86,9 +86,9 @@ impl Simulation {
         run: impl FnOnce(&dyn Program, &mut Robot<'_>) -> T,
     ) -> T {
         let shared = &self.shared;
-        let mind = self.mind(robot);
-        let (node, senses) = (&mind.node, &mind.senses);
-        let kind = &shared.kinds[mind.group as usize];
+        let member = self.member(robot);
+        let (node, senses) = (&member.node, &member.senses);
+        let kind = &shared.kinds[member.group as usize];
         let mut readings = Readings::default();
         let mut bumper = senses.contact.filter(|_| kind.sensors.bumper);
         if let Some(frozen) = &senses.frozen {

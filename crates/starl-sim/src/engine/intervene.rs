@@ -1,8 +1,8 @@
 //! Carries out what steers a run: faults, changes of the world and of the network, operators.
 
 use super::agenda::Due;
-use super::mind::Mind;
 use super::shard::SIZE;
+use super::simulated_robot::SimulatedRobot;
 use super::{Simulation, Stream, fault, populate, stream};
 use crate::scenario::{Group, Network, Occasion, Scenario, ScenarioEvent};
 use starl_core::event::{Fault, Level};
@@ -20,9 +20,9 @@ const INVALID: &str = "a number in it is not finite or out of its range, a name 
 const PARTS: u32 = 16;
 
 impl Simulation {
-    /// Has something happen at a time, now if that has passed. It is recorded, belongs to the digest, and
-    /// takes place before anything else that robots do in that step. A clone of the simulation that is given
-    /// the same goes on alike.
+    /// Schedules an intervention at a time, or now if that has passed. It is recorded, is part of the digest, and takes
+    /// effect before the robots act in that step. A clone of the simulation with the same interventions continues
+    /// identically.
     ///
     /// # Errors
     /// The error of the intervention: invalid numbers, unknown robots, and, if it is to happen now, unknown
@@ -59,8 +59,7 @@ impl Simulation {
         self.agenda.applied()
     }
 
-    /// The scenario with all that has been applied to this run as events on schedule: run from the start, it
-    /// goes as this run went.
+    /// The scenario with all interventions of this run as scheduled events: it repeats this run from the start.
     pub fn as_scenario(&self) -> Scenario {
         let mut scenario = Scenario::clone(&self.origin);
         let applied = self.agenda.applied().iter().cloned();
@@ -73,7 +72,7 @@ impl Simulation {
         scenario
     }
 
-    /// Carries out what is due now, or has been due since before.
+    /// Executes the interventions that are due.
     pub(super) fn intervene(&mut self, at: Time) {
         while let Some(Due { what, told, .. }) = self.agenda.next(at) {
             if told {
@@ -132,7 +131,7 @@ impl Simulation {
                 let body = self.shared.bodies[like.index()];
                 return match self.is_free(None, pose.position, body.radius, body.height) {
                     true => Ok(()),
-                    false => Err("something stands where the robot is to join".into()),
+                    false => Err("the place where the robot joins is occupied".into()),
                 };
             }
             _ => None,
@@ -214,38 +213,42 @@ impl Simulation {
         for &robot in robots {
             let seed = self.shared.scenario.seed;
             let shard = &mut self.shards[robot.index() / SIZE];
-            let mind = &mut shard.minds[robot.index() % SIZE];
-            if mind.is_gone {
+            let member = &mut shard.members[robot.index() % SIZE];
+            if member.is_gone {
                 continue;
             }
             let event = fault::event(kind);
-            shard.log.record(&mut mind.account.digest, robot, at, event);
-            self.impaired -= usize::from(mind.is_impaired());
+            shard
+                .log
+                .record(&mut member.account.digest, robot, at, event);
+            self.impaired -= usize::from(member.is_impaired());
             match kind {
                 FaultKind::Crash(_) => {
                     let key = [u64::from(robot.0), at.0];
                     let loss = self.shared.scenario.storage.loss;
-                    let is_lost = mind.account.store.is_some()
+                    let is_lost = member.account.store.is_some()
                         && stream(seed, Stream::Storage, &key).chance(loss);
-                    mind.crash(is_lost);
+                    member.crash(is_lost);
                     if is_lost {
                         let event = Event::Fault(Fault::StorageLost);
-                        shard.log.record(&mut mind.account.digest, robot, at, event);
+                        shard
+                            .log
+                            .record(&mut member.account.digest, robot, at, event);
                     }
                 }
-                FaultKind::Restart(_) if mind.node.condition().down => {
-                    let program = self.shared.kinds[mind.group as usize].program.clone();
+                FaultKind::Restart(_) if member.node.condition().down => {
+                    let program = self.shared.kinds[member.group as usize].program.clone();
                     let key = [u64::from(robot.0), at.0];
                     let agent = Agent::new(program, stream(seed, Stream::Program, &key));
-                    let saved = mind.account.store.as_ref().map(|store| store.saved());
-                    mind.node.restart(at, agent.with_saved(saved));
-                    mind.next_estimate = at;
+                    let saved = member.account.store.as_ref().map(|store| store.saved());
+                    member.node.restart(at, agent.with_saved(saved));
+                    member.next_estimate = at;
                 }
-                FaultKind::StuckMotor(_) => mind.motor_stuck = true,
-                FaultKind::FrozenSensor(_) => mind.senses.are_frozen = true,
+                FaultKind::StuckMotor(_) => member.motor_stuck = true,
+                FaultKind::FrozenSensor(_) => member.senses.are_frozen = true,
                 FaultKind::Repair(_) => {
-                    mind.motor_stuck = false;
-                    mind.repair_senses();
+                    member.motor_stuck = false;
+                    member.repair_senses();
                 }
                 FaultKind::CorruptState(_) => {
                     let key = [u64::from(robot.0), at.0];
@@ -254,8 +257,8 @@ impl Simulation {
                 }
                 _ => {}
             }
-            let mind = &shard.minds[robot.index() % SIZE];
-            self.impaired += usize::from(mind.is_impaired());
+            let member = &shard.members[robot.index() % SIZE];
+            self.impaired += usize::from(member.is_impaired());
         }
     }
 
@@ -270,14 +273,16 @@ impl Simulation {
         let place = body.position + by * (f64::from(free) / f64::from(PARTS));
         let shard = &mut self.shards[robot.index() / SIZE];
         let state = &mut shard.states[robot.index() % SIZE];
-        let mind = &mut shard.minds[robot.index() % SIZE];
-        if mind.is_gone {
+        let member = &mut shard.members[robot.index() % SIZE];
+        if member.is_gone {
             return;
         }
         state.pose.position = place;
         self.shared.bodies[robot.index()].position = place;
         let event = Event::Moved(state.pose);
-        shard.log.record(&mut mind.account.digest, robot, at, event);
+        shard
+            .log
+            .record(&mut member.account.digest, robot, at, event);
     }
 
     /// Whether a body would touch nothing there, apart from `robot`'s own.
@@ -286,7 +291,7 @@ impl Simulation {
         let mut bodies = (0..).map(RobotId).zip(&self.shared.bodies);
         bodies.all(|(other, body)| {
             Some(other) == robot
-                || self.mind(other).is_gone
+                || self.member(other).is_gone
                 || place.z >= body.position.z + body.height
                 || body.position.z >= place.z + height
                 || place.planar_distance(body.position) >= radius + body.radius
@@ -317,25 +322,25 @@ impl Simulation {
 
     /// Robots hear an order in the course of the step; those that are down do not.
     fn tell(&mut self, at: Time, robots: &[RobotId], order: &Order) {
-        let minds = self.shards.iter_mut().flat_map(|shard| &mut shard.minds);
-        let is_meant = |mind: &&mut Mind| {
-            let is_named = robots.is_empty() || robots.contains(&mind.id());
-            is_named && !mind.node.condition().down
+        let members = self.shards.iter_mut().flat_map(|shard| &mut shard.members);
+        let is_meant = |member: &&mut SimulatedRobot| {
+            let is_named = robots.is_empty() || robots.contains(&member.id());
+            is_named && !member.node.condition().down
         };
-        for mind in minds.filter(is_meant) {
-            mind.account.orders.push((at, order.clone()));
+        for member in members.filter(is_meant) {
+            member.account.orders.push((at, order.clone()));
         }
     }
 
     fn empty_hands(&mut self, holder: Option<RobotId>) {
         if let Some(robot) = holder {
-            self.mind_mut(robot).senses.holding = None;
+            self.member_mut(robot).senses.holding = None;
         }
     }
 
     /// One more robot of the kind of another.
     fn join(&mut self, at: Time, like: RobotId, name: String, pose: Pose) {
-        let group = self.mind(like).group as usize;
+        let group = self.member(like).group as usize;
         let scenario = Arc::make_mut(&mut self.shared.scenario);
         let kind = self.shared.kinds[group].clone();
         let group = Group {
@@ -361,7 +366,7 @@ impl Simulation {
         self.have_changed = true;
         let state = *self.state(robot);
         let shard = &mut self.shards[robot.index() / SIZE];
-        let digest = &mut shard.minds[robot.index() % SIZE].account.digest;
+        let digest = &mut shard.members[robot.index() % SIZE].account.digest;
         shard
             .log
             .record(digest, robot, at, Event::Moved(state.pose));
@@ -375,17 +380,17 @@ impl Simulation {
             self.shared.gone[robot.index()] = true;
             self.bring_fault(at, &FaultKind::Crash(vec![robot]));
             let position = self.shared.bodies[robot.index()].position;
-            let mind = self.mind_mut(robot);
-            mind.is_gone = true;
-            let held = mind.senses.holding.take();
+            let member = self.member_mut(robot);
+            member.is_gone = true;
+            let held = member.senses.holding.take();
             if let Some(thing) = held {
                 self.shared.things.put_down(thing, position);
             }
         }
     }
 
-    fn mind_mut(&mut self, robot: RobotId) -> &mut Mind {
-        &mut self.shards[robot.index() / SIZE].minds[robot.index() % SIZE]
+    fn member_mut(&mut self, robot: RobotId) -> &mut SimulatedRobot {
+        &mut self.shards[robot.index() / SIZE].members[robot.index() % SIZE]
     }
 
     /// Carries out what robots have asked of their grippers, in the order of time and robots.
@@ -397,18 +402,18 @@ impl Simulation {
         grips.sort_by_key(|grip| (grip.at, grip.robot));
         for grip in grips {
             let body = self.shared.bodies[grip.robot.index()];
-            let held = self.mind(grip.robot).senses.holding;
+            let held = self.member(grip.robot).senses.holding;
             let things = &mut self.shared.things;
             let event = match (grip.thing, held) {
                 (Some(thing), None)
                     if things.take(thing, grip.robot, body.position, body.radius) =>
                 {
-                    self.mind_mut(grip.robot).senses.holding = Some(thing);
+                    self.member_mut(grip.robot).senses.holding = Some(thing);
                     Event::Took(thing)
                 }
                 (None, Some(thing)) => {
                     things.put_down(thing, body.position);
-                    self.mind_mut(grip.robot).senses.holding = None;
+                    self.member_mut(grip.robot).senses.holding = None;
                     Event::PutDown {
                         thing,
                         position: body.position,
@@ -417,7 +422,7 @@ impl Simulation {
                 _ => continue,
             };
             let shard = &mut self.shards[grip.robot.index() / SIZE];
-            let digest = &mut shard.minds[grip.robot.index() % SIZE].account.digest;
+            let digest = &mut shard.members[grip.robot.index() % SIZE].account.digest;
             shard.log.record(digest, grip.robot, grip.at, event);
         }
     }

@@ -1,4 +1,4 @@
-//! The engine: robots in shards that step independently, and what is settled between steps.
+//! The engine: robots in shards that step independently, and the work between steps.
 
 mod act;
 mod agenda;
@@ -7,7 +7,6 @@ mod fault;
 mod inbox;
 mod inspect;
 mod intervene;
-mod mind;
 mod obstacles;
 mod outlet;
 mod populate;
@@ -16,6 +15,7 @@ mod radio;
 mod record;
 mod shard;
 mod shared;
+mod simulated_robot;
 mod simulation;
 mod slots;
 mod things;

@@ -1,4 +1,4 @@
-//! The obstacles that stand: they expire, appear, move and vanish, and robots' knowledge of them follows.
+//! The existing obstacles: they expire, appear, move and disappear, and the robots' knowledge is updated.
 //!
 //! An obstacle's index in the world never changes: first come those of the scenario, then the walls around
 //! the world, then those that have appeared since.
@@ -16,7 +16,7 @@ impl Simulation {
         (world.obstacles.len(), walls)
     }
 
-    /// The obstacle of the world with this index, if it stands and is no wall.
+    /// The obstacle of the world with this index, if it exists and is not a wall.
     pub(super) fn obstacle(&mut self, index: u32) -> Option<&mut WorldObstacle> {
         let (first, walls) = self.first_indices();
         let index = index as usize;
@@ -38,7 +38,7 @@ impl Simulation {
         });
     }
 
-    /// Makes the map of the obstacles that stand now, and of what is known of them.
+    /// Builds the map of the existing obstacles, and that of the known ones.
     pub(super) fn raise_obstacles(&mut self) {
         let now = self.now;
         let (first, walls) = self.first_indices();
@@ -79,8 +79,8 @@ impl Simulation {
     /// Brings what single robots know up to date with the obstacles that stand.
     fn forget_vanished(&mut self) {
         let shared = &self.shared;
-        for mind in self.shards.iter_mut().flat_map(|shard| &mut shard.minds) {
-            if let Some(knowledge) = &mut mind.senses.knowledge {
+        for member in self.shards.iter_mut().flat_map(|shard| &mut shard.members) {
+            if let Some(knowledge) = &mut member.senses.knowledge {
                 let met = |index: &u32| shared.standing.binary_search(index).ok();
                 knowledge.met.retain(|index| met(index).is_some());
                 let extra = knowledge.met.iter().filter_map(met);

@@ -1,8 +1,8 @@
 //! The simulator's side of a robot's node: the network's entrance, the planner, and the record.
 
-use super::mind::{Account, Outgoing};
 use super::record::Log;
 use super::shared::{Kind, Shared};
+use super::simulated_robot::{Account, Outgoing};
 use super::things::Grip;
 use starl_core::event::{DropReason, PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{Duration, Event, RobotId, Time};
@@ -15,7 +15,7 @@ use starl_motion::{Neighbour, State};
 const HEADER_BYTES: usize = 64;
 
 /// The environment of one robot's node in its turn.
-pub struct Desk<'a> {
+pub struct SimulatorOutlet<'a> {
     pub robot: RobotId,
     pub shared: &'a Shared,
     pub kind: &'a Kind,
@@ -28,7 +28,7 @@ pub struct Desk<'a> {
     pub workspace: &'a mut Workspace,
 }
 
-impl Outlet for Desk<'_> {
+impl Outlet for SimulatorOutlet<'_> {
     fn workspace(&mut self) -> &mut Workspace {
         self.workspace
     }
@@ -117,7 +117,7 @@ impl Outlet for Desk<'_> {
     }
 }
 
-impl Desk<'_> {
+impl SimulatorOutlet<'_> {
     /// When a datagram with this payload leaves the radio, or why it never does.
     fn leaves(&mut self, at: Time, bytes: usize) -> Result<Time, DropReason> {
         let network = &self.shared.network;

@@ -1,8 +1,8 @@
 //! Puts robots into a simulation: those of the scenario at the start, and those that join later.
 
-use super::mind::{Account, Mind, Senses};
 use super::shard::{SIZE, Shard};
 use super::shared::{Kind, Shared};
+use super::simulated_robot::{Account, Senses, SimulatedRobot};
 use super::simulation::{Programs, StartError};
 use super::{Stream, stream};
 use crate::scenario::{Group, Scenario};
@@ -53,7 +53,7 @@ pub fn populate(shared: &mut Shared) -> Vec<Shard> {
         list.shrink_to_fit();
     }
     for shard in &mut shards {
-        shard.minds.shrink_to_fit();
+        shard.members.shrink_to_fit();
         shard.states.shrink_to_fit();
         shard.predicted.shrink_to_fit();
     }
@@ -81,14 +81,14 @@ pub fn add(shared: &mut Shared, shards: &mut Vec<Shard>, group: usize, start: Po
     if let Some(shard) = shards.last_mut() {
         let robot = RobotId(index as u32);
         shard
-            .minds
-            .push(mind(&shared.scenario, robot, group, kind, at));
+            .members
+            .push(member(&shared.scenario, robot, group, kind, at));
         shard.states.push(state);
         shard.predicted.push(state);
     }
 }
 
-fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind, at: Time) -> Mind {
+fn member(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind, at: Time) -> SimulatedRobot {
     let key = [u64::from(id.0)];
     let random = stream(scenario.seed, Stream::Program, &key);
     let bounds = &scenario.fleet.groups[group].clock;
@@ -101,7 +101,7 @@ fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind, at: Time) -
     let store = scenario.storage.kept.then(Box::<Store>::default);
     let agent = Agent::new(kind.program.clone(), random);
     let agent = agent.with_saved(store.as_ref().map(|store| store.saved()));
-    Mind {
+    SimulatedRobot {
         node: Node::new(id, clock, agent, at),
         senses: Senses::default(),
         account: Account {

@@ -4,9 +4,9 @@
 //! not depend on any other traffic.
 
 use super::inbox::{Calendar, Delivery, Transmission};
-use super::mind::Outgoing;
 use super::record::Log;
 use super::shared::{Shared, Window};
+use super::simulated_robot::Outgoing;
 use super::slots::Slots;
 use super::{Stream, stream};
 use crate::scenario::{DelayDistribution, Link};

@@ -18,7 +18,7 @@ pub struct Tally {
     /// Retransmissions of Broadcast, Geocast and Unicast, for each receiver without acknowledgement.
     /// Retransmissions of other primitives do not appear in events, and are not counted here.
     pub retransmitted: u64,
-    /// Times that two bodies, or a body and an obstacle, came to touch.
+    /// The number of contacts between two bodies, or a body and an obstacle.
     pub collisions: u64,
 }
 
@@ -61,7 +61,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// Takes note of an event of a robot whose digest is given.
+    /// Records an event of a robot whose digest is given.
     #[inline(always)]
     pub fn record(&mut self, digest: &mut Digest, robot: RobotId, at: Time, event: Event) {
         digest.event(at, &event);

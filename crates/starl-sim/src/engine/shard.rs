@@ -4,11 +4,11 @@
 
 use super::act::{Turn, next_due};
 use super::inbox::Delivery;
-use super::mind::{Mind, Outgoing};
-use super::outlet::Desk;
+use super::outlet::SimulatorOutlet;
 use super::radio::{self, Posted};
 use super::record::Log;
 use super::shared::{Shared, Window};
+use super::simulated_robot::{Outgoing, SimulatedRobot};
 use super::things::Grip;
 use starl_core::event::Hit;
 use starl_core::{Command, Event, Point, Random, RobotId, Time, math, sensor};
@@ -25,14 +25,14 @@ pub const SIZE: usize = 256;
 #[derive(Clone, Default)]
 pub struct Shard {
     pub first: u32,
-    pub minds: Vec<Mind>,
+    pub members: Vec<SimulatedRobot>,
     pub states: Vec<State>,
     pub predicted: Vec<State>,
     pub outbox: Vec<Outgoing>,
     /// The requests of robots to their grippers in this step.
     pub grips: Vec<Grip>,
     pub posted: Vec<Posted>,
-    /// When something happens to each robot next, arrivals of datagrams aside.
+    /// The time of each robot's next event, except arrivals of datagrams.
     due: Vec<Time>,
     /// The earliest of these.
     earliest: Time,
@@ -61,7 +61,7 @@ impl Shard {
         }
     }
 
-    /// Forgets what was sent in the step before.
+    /// Clears the messages sent in the previous step.
     pub fn begin_step(&mut self, step: Time) {
         self.outbox.clear();
         self.routed = 0;
@@ -71,17 +71,17 @@ impl Shard {
     /// Finds out when something happens to each robot from `now` on in the step that began at `step`.
     pub fn schedule(&mut self, step: Time, now: Time) {
         let is_begun = now > step;
-        let due = |mind: &Mind| match mind {
-            mind if mind.is_gone => Time::NEVER,
-            mind if !is_begun && (step == Time::ZERO || !mind.account.plans.is_empty()) => step,
-            mind => next_due(&mind.node, &mind.account, mind.next_estimate),
+        let due = |member: &SimulatedRobot| match member {
+            member if member.is_gone => Time::NEVER,
+            member if !is_begun && (step == Time::ZERO || !member.account.plans.is_empty()) => step,
+            member => next_due(&member.node, &member.account, member.next_estimate),
         };
         self.due.clear();
-        self.due.extend(self.minds.iter().map(due));
+        self.due.extend(self.members.iter().map(due));
         self.find_earliest();
     }
 
-    /// When something happens to any robot next, arrivals of datagrams aside.
+    /// The time of the next input of any robot, without arrivals of datagrams.
     pub fn next_due(&self) -> Time {
         self.earliest
     }
@@ -99,20 +99,20 @@ impl Shard {
 
     /// Lets each robot take its inputs of this slot of the step that began at `step`.
     pub fn act(&mut self, shared: &Shared, step: Time, slot: Window) {
-        for (index, mind) in self.minds.iter_mut().enumerate() {
-            if mind.is_gone {
+        for (index, member) in self.members.iter_mut().enumerate() {
+            if member.is_gone {
                 self.due[index] = Time::NEVER;
             }
             if self.due[index] >= slot.to {
                 continue;
             }
             let scratch = &mut self.scratch;
-            let desk = Desk {
-                robot: mind.id(),
+            let outlet = SimulatorOutlet {
+                robot: member.id(),
                 shared,
-                kind: &shared.kinds[mind.group as usize],
+                kind: &shared.kinds[member.group as usize],
                 state: &self.states[index],
-                account: &mut mind.account,
+                account: &mut member.account,
                 outbox: &mut self.outbox,
                 grips: &mut self.grips,
                 log: &mut self.log,
@@ -122,12 +122,12 @@ impl Shard {
             let mut turn = Turn {
                 window: slot,
                 step,
-                node: &mut mind.node,
-                next_estimate: &mut mind.next_estimate,
-                senses: &mut mind.senses,
+                node: &mut member.node,
+                next_estimate: &mut member.next_estimate,
+                senses: &mut member.senses,
                 readings: &mut scratch.readings,
                 sensed: false,
-                desk,
+                outlet,
             };
             self.due[index] = turn.run(&mut scratch.arrivals);
         }
@@ -136,20 +136,20 @@ impl Shard {
 
     /// Predicts the motion of each robot in a step; `next` receives the predicted positions.
     pub fn predict(&mut self, shared: &Shared, window: Window, next: &mut [Point]) {
-        for (index, mind) in self.minds.iter().enumerate() {
-            let (kind, state) = (&shared.kinds[mind.group as usize], &self.states[index]);
+        for (index, member) in self.members.iter().enumerate() {
+            let (kind, state) = (&shared.kinds[member.group as usize], &self.states[index]);
             let predicted = &mut self.predicted[index];
-            if mind.is_gone {
+            if member.is_gone {
                 *predicted = *state;
             } else {
-                let command = if mind.node.condition().down {
+                let command = if member.node.condition().down {
                     kind.at_a_loss
-                } else if mind.motor_stuck {
+                } else if member.motor_stuck {
                     Command::Stop
                 } else {
-                    mind.node.command()
+                    member.node.command()
                 };
-                let disturbance = shared.disturbance(mind.id(), window.from);
+                let disturbance = shared.disturbance(member.id(), window.from);
                 let elapsed = window.to.since(window.from);
                 *predicted = kind.model.predict(state, &command, &disturbance, elapsed);
             }
@@ -160,28 +160,28 @@ impl Shard {
     /// Overwrites the state of a robot's program at random.
     pub fn corrupt(&mut self, shared: &Shared, robot: RobotId, at: Time, random: &mut Random) {
         let index = (robot.0 - self.first) as usize;
-        let mind = &mut self.minds[index];
-        let mut desk = Desk {
+        let member = &mut self.members[index];
+        let mut outlet = SimulatorOutlet {
             robot,
             shared,
-            kind: &shared.kinds[mind.group as usize],
+            kind: &shared.kinds[member.group as usize],
             state: &self.states[index],
-            account: &mut mind.account,
+            account: &mut member.account,
             outbox: &mut self.outbox,
             grips: &mut self.grips,
             log: &mut self.log,
             journal: &mut self.journal,
             workspace: &mut self.scratch.workspace,
         };
-        mind.node.corrupt(at, random, &mut desk);
+        member.node.corrupt(at, random, &mut outlet);
     }
 
     /// Finds what each robot's predicted motion meets first.
     pub fn look_ahead(&self, motions: &Motions<'_>, contacts: &mut [Option<Contact>]) {
-        for (mind, contact) in self.minds.iter().zip(contacts) {
-            *contact = match mind.is_gone {
+        for (member, contact) in self.members.iter().zip(contacts) {
+            *contact = match member.is_gone {
                 true => None,
-                false => motions.first_contact(mind.id(), 0.0, |_| 1.0),
+                false => motions.first_contact(member.id(), 0.0, |_| 1.0),
             };
         }
     }
@@ -195,41 +195,41 @@ impl Shard {
         bodies: &mut [Neighbour],
         perceived: &mut [Neighbour],
     ) {
-        for (index, mind) in self.minds.iter_mut().enumerate() {
+        for (index, member) in self.members.iter_mut().enumerate() {
             let (state, body) = (&mut self.states[index], &mut bodies[index]);
-            let kind = &shared.kinds[mind.group as usize];
-            let contact = contacts.get(mind.id().index()).copied().flatten();
+            let kind = &shared.kinds[member.group as usize];
+            let contact = contacts.get(member.id().index()).copied().flatten();
             let hit = contact.map(|contact| contact.with);
             let impact = contact.map(|contact| contact.impact);
             kind.model.update(state, &self.predicted[index], impact);
-            let before = shared.bodies[mind.id().index()].position;
-            mind.distance += state.pose.position.distance(before);
+            let before = shared.bodies[member.id().index()].position;
+            member.distance += state.pose.position.distance(before);
             body.position = state.pose.position;
             body.velocity = state.twist.linear;
             if let Some(seen) = perceived.get_mut(index) {
-                *seen = mind.perceived(body);
+                *seen = member.perceived(body);
             }
-            mind.senses.contact = impact.map(|impact| sensor::Contact {
+            member.senses.contact = impact.map(|impact| sensor::Contact {
                 bearing: math::wrap_angle(impact.direction.heading() - state.pose.yaw),
             });
-            if hit != mind.senses.touching {
-                mind.senses.touching = hit;
+            if hit != member.senses.touching {
+                member.senses.touching = hit;
                 if let Some(with) = hit {
                     let event = Event::Collided { with };
-                    let digest = &mut mind.account.digest;
-                    self.log.record(digest, mind.node.id(), window.to, event);
+                    let digest = &mut member.account.digest;
+                    self.log.record(digest, member.node.id(), window.to, event);
                     // Two robots that meet are one collision, not two.
                     let counted_there = matches!(with, Hit::Robot(other)
-                        if other < mind.id() && contacts[other.index()]
-                            .is_some_and(|contact| contact.with == Hit::Robot(mind.id())));
+                        if other < member.id() && contacts[other.index()]
+                            .is_some_and(|contact| contact.with == Hit::Robot(member.id())));
                     self.log.tally.collisions += u64::from(!counted_there);
                 }
             }
-            if mind.next_pose_record <= window.to && !mind.is_gone {
-                mind.next_pose_record += shared.scenario.trace.pose_period;
+            if member.next_pose_record <= window.to && !member.is_gone {
+                member.next_pose_record += shared.scenario.trace.pose_period;
                 let event = Event::Moved(state.pose);
-                let digest = &mut mind.account.digest;
-                self.log.record(digest, mind.node.id(), window.to, event);
+                let digest = &mut member.account.digest;
+                self.log.record(digest, member.node.id(), window.to, event);
             }
         }
     }
@@ -239,7 +239,7 @@ impl Shard {
         self.posted.clear();
         for (index, outgoing) in self.outbox.iter().enumerate().skip(self.routed) {
             let sender = (outgoing.datagram.message.from.0 - self.first) as usize;
-            let digest = &mut self.minds[sender].account.digest;
+            let digest = &mut self.members[sender].account.digest;
             radio::route(
                 shared,
                 slot,

@@ -2,10 +2,10 @@
 
 use super::agenda::Agenda;
 use super::inbox::Calendar;
-use super::mind::Mind;
 use super::record::Tally;
 use super::shard::{SIZE, Shard};
 use super::shared::{Shared, Window};
+use super::simulated_robot::SimulatedRobot;
 use super::slots::Slots;
 use super::things::Things;
 use super::{populate, radio};
@@ -22,7 +22,7 @@ use starl_motion::contact::{self, Contact, Motions};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
 
-/// A scenario under way. A clone goes on exactly as the original would.
+/// A running scenario. A clone continues exactly as the original would.
 #[derive(Clone)]
 pub struct Simulation {
     pub(super) now: Time,
@@ -37,7 +37,7 @@ pub struct Simulation {
     pub(super) bodies: Vec<Neighbour>,
     contacts: Vec<Option<Contact>>,
     pub(super) agenda: Agenda,
-    /// Whether robots have come or gone since the spatial index was built.
+    /// Whether robots have joined or left since the spatial index was built.
     pub(super) have_changed: bool,
     /// When the last fault came.
     pub(super) disturbed: Time,
@@ -73,13 +73,13 @@ pub struct Progress {
     pub up: usize,
     /// Of these, robots whose programs have reached their goals.
     pub finished: usize,
-    /// Of these, robots whose programs cannot go on.
+    /// Of these, robots whose programs have failed.
     pub failed: usize,
 }
 
 impl Simulation {
-    /// Sets up a run. `programs` makes a fresh program for a group of robots, or says what is wrong
-    /// with its name or parameters.
+    /// Sets up a run. `programs` makes a fresh program for a group of robots, or returns the problem with its name or
+    /// parameters.
     pub fn new(scenario: Scenario, programs: &Programs<'_>) -> Result<Simulation, StartError> {
         let kinds = populate::kinds(&scenario, programs)?;
         let origin = Arc::new(scenario);
@@ -143,7 +143,7 @@ impl Simulation {
     /// journal from later on cannot be replayed.
     pub fn set_journal(&mut self, keep: bool) {
         for shard in &mut self.shards {
-            let journal = || Box::new(Journal::new(RobotId(shard.first), shard.minds.len()));
+            let journal = || Box::new(Journal::new(RobotId(shard.first), shard.members.len()));
             shard.journal = keep.then(journal);
         }
     }
@@ -367,21 +367,21 @@ impl Simulation {
         &self.journal
     }
 
-    /// The hash of all that has happened so far.
+    /// The hash of all events so far.
     pub fn digest(&self) -> Digest {
         let mut digest = self.world_digest;
-        for mind in self.minds() {
-            digest.word(mind.account.digest.value());
+        for member in self.members() {
+            digest.word(member.account.digest.value());
         }
         digest
     }
 
-    /// The hash of all that has happened to one robot, to find out where two runs part.
+    /// The hash of all events of one robot, to find the first difference of two runs.
     pub fn robot_digest(&self, robot: RobotId) -> Digest {
-        self.mind(robot).account.digest
+        self.member(robot).account.digest
     }
 
-    /// Counts of what has happened so far.
+    /// Counts of events so far.
     pub fn tally(&self) -> Tally {
         let mut tally = Tally::default();
         self.shards
@@ -393,8 +393,8 @@ impl Simulation {
     /// How far the robots are.
     pub fn progress(&self) -> Progress {
         let mut progress = Progress::default();
-        for mind in self.minds() {
-            let condition = mind.node.condition();
+        for member in self.members() {
+            let condition = member.node.condition();
             if !condition.down {
                 progress.up += 1;
                 progress.finished += usize::from(condition.has_finished());
@@ -411,10 +411,10 @@ impl Simulation {
 
     /// A robot's estimate of its state.
     pub fn estimate(&self, robot: RobotId) -> &Estimate {
-        self.mind(robot).node.estimate()
+        self.member(robot).node.estimate()
     }
 
-    /// The obstacles that stand and that all robots know of.
+    /// The existing obstacles that all robots know.
     pub fn known_obstacles(&self) -> Obstacles {
         self.shared.known.clone()
     }
@@ -440,52 +440,52 @@ impl Simulation {
 
     /// The robot's node: its software, timers, clock and condition.
     pub fn node(&self, robot: RobotId) -> &Node {
-        &self.mind(robot).node
+        &self.member(robot).node
     }
 
     /// Whether a robot has left the fleet.
     pub fn has_left(&self, robot: RobotId) -> bool {
-        self.mind(robot).is_gone
+        self.member(robot).is_gone
     }
 
     /// A robot's program.
     pub fn program(&self, robot: RobotId) -> &dyn Program {
-        self.mind(robot).node.program()
+        self.member(robot).node.program()
     }
 
     /// The group of a robot, by its place in the fleet.
     pub fn group(&self, robot: RobotId) -> usize {
-        self.mind(robot).group as usize
+        self.member(robot).group as usize
     }
 
     /// Whether a robot has not crashed, or has restarted since.
     pub fn is_up(&self, robot: RobotId) -> bool {
-        !self.mind(robot).node.condition().down
+        !self.member(robot).node.condition().down
     }
 
     /// Whether a robot is up and its program has reached its goal.
     pub fn has_finished(&self, robot: RobotId) -> bool {
-        self.mind(robot).node.condition().has_finished()
+        self.member(robot).node.condition().has_finished()
     }
 
-    /// How far a robot has come along its path, metres.
+    /// The distance that a robot has travelled, metres.
     pub fn distance(&self, robot: RobotId) -> f64 {
-        self.mind(robot).distance
+        self.member(robot).distance
     }
 
     /// How many waypoints a robot's ReachAvoid has reached.
     pub fn way_points(&self, robot: RobotId) -> u32 {
-        self.mind(robot).account.way_points
+        self.member(robot).account.way_points
     }
 
     /// How many commands a robot's ReachAvoid has given up.
     pub fn gave_up(&self, robot: RobotId) -> u32 {
-        self.mind(robot).account.gave_up
+        self.member(robot).account.gave_up
     }
 
     /// How many datagrams a robot has sent.
     pub fn sent(&self, robot: RobotId) -> u32 {
-        self.mind(robot).account.sent
+        self.member(robot).account.sent
     }
 
     /// All robots.
@@ -493,12 +493,12 @@ impl Simulation {
         &self.shared.fleet
     }
 
-    pub(super) fn mind(&self, robot: RobotId) -> &Mind {
-        &self.shards[robot.index() / SIZE].minds[robot.index() % SIZE]
+    pub(super) fn member(&self, robot: RobotId) -> &SimulatedRobot {
+        &self.shards[robot.index() / SIZE].members[robot.index() % SIZE]
     }
 
-    fn minds(&self) -> impl Iterator<Item = &Mind> {
-        self.shards.iter().flat_map(|shard| &shard.minds)
+    fn members(&self) -> impl Iterator<Item = &SimulatedRobot> {
+        self.shards.iter().flat_map(|shard| &shard.members)
     }
 }
 

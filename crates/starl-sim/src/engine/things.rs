@@ -12,14 +12,14 @@ const REACH: f64 = 0.15;
 pub struct Grip {
     pub at: Time,
     pub robot: RobotId,
-    /// The thing to take; none to put down what is held.
+    /// The thing to take; none to put down the held one.
     pub thing: Option<u32>,
 }
 
 /// All things, by index.
 #[derive(Clone, Debug, Default)]
 pub struct Things {
-    /// Their names; empty for one that is gone.
+    /// Their names; empty for a removed one.
     pub names: Vec<Name>,
     list: Vec<Place>,
 }
@@ -87,7 +87,7 @@ impl Things {
         }
     }
 
-    /// Takes a thing out of the world; gives the robot that held it. An error if there is none.
+    /// Removes a thing from the world; returns the robot that held it. An error if there is no such thing.
     pub fn remove(&mut self, name: &str) -> Result<Option<RobotId>, ()> {
         let thing = self.find(name).ok_or(())?;
         self.names[thing as usize] = Name::Borrowed("");

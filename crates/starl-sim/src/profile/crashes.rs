@@ -35,7 +35,7 @@ pub(super) fn crash(trouble: &mut Trouble<'_>) {
         };
         let robot = trouble.one(&robots);
         let outage = Outage { robot, from, to };
-        // So many at most are down at any moment of it.
+        // The greatest number that is down at any moment of it.
         let meanwhile = outages.iter().filter(|other| other.overlaps(&outage));
         let again = outages
             .iter()

@@ -1,11 +1,11 @@
-//! Fault profiles: what a search for violations makes of a scenario.
+//! Fault profiles, which add faults to a scenario in the search for violations.
 //!
 //! A profile is a function of a scenario, a time span and a seed to a scenario. The faults that it adds are
 //! an explicit list, drawn from the seed, so that shrinking can remove some. Random faults of the scenario
 //! itself are drawn into the same list. All faults begin within the first three quarters of the span, and
 //! temporary faults end by then. The rest is calm, so that guarantees after faults can be checked.
 //!
-//! Every profile draws from a stream of its own, and what it draws does not depend on the run.
+//! Every profile draws from its own stream, independent of the run.
 
 mod clocks;
 mod corruption;
@@ -27,7 +27,7 @@ const PURPOSE: u64 = 0x7072_6f66_696c_6500; // "profile"
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
-    /// None but what the scenario has itself.
+    /// Only the faults of the scenario itself.
     Calm,
     /// Datagrams are lost, doubled, held back and delayed.
     Lossy,
@@ -60,7 +60,7 @@ impl Profile {
         Profile::Swarm,
     ];
 
-    /// Those under which primitives keep their safety: all but the corruption of state.
+    /// The faults under which primitives keep their safety: all except the corruption of state.
     pub const USUAL: [Profile; 7] = [
         Profile::Calm,
         Profile::Lossy,
@@ -108,8 +108,8 @@ impl Profile {
             .find(|profile| profile.name() == name)
     }
 
-    /// Whether a run is to reach its goal all the same. Where robots crash, some never restart, and those
-    /// that wait for them may wait for ever; where state is corrupted, a program may have lost its way.
+    /// Whether a run must reach its goal nevertheless. With crashes, some robots never restart, and others may wait for
+    /// them for ever; with corrupted state, a program may be unable to continue.
     pub fn demands_goal(self) -> bool {
         match self {
             Profile::Calm | Profile::Lossy | Profile::Partitions | Profile::Clocks => true,
@@ -240,8 +240,7 @@ impl Trouble<'_> {
     }
 }
 
-/// Draws the faults that a scenario has at random rates, so that all it has are on its list. The run
-/// stays the same.
+/// Draws the random faults of a scenario into its list of faults. The run stays the same.
 pub fn list_faults(scenario: &mut Scenario) {
     let end = Time::ZERO + scenario.duration;
     let mut schedule = engine::timeline(scenario);

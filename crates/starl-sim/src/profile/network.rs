@@ -29,7 +29,7 @@ pub(super) fn lossy(trouble: &mut Trouble<'_>) {
     };
 }
 
-/// Every tenth copy or so comes two to ten seconds late, and many come twice.
+/// About every tenth copy arrives two to ten seconds late, and many arrive twice.
 pub(super) fn late(trouble: &mut Trouble<'_>) {
     let reordering = trouble.hundredths(0.05, 0.2);
     let duplication = trouble.hundredths(0.1, 0.4);

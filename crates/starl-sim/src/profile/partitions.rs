@@ -5,7 +5,7 @@ use crate::scenario::FaultKind;
 use starl_core::RobotId;
 
 /// One to three partitions one after the other, each into two parts, now and then into three; the last
-/// is healed for good, the others mostly.
+/// is healed permanently, the others mostly.
 pub(super) fn part(trouble: &mut Trouble<'_>) {
     cut(trouble, FaultKind::Partition);
 }

@@ -5,7 +5,7 @@ use super::schema::{Field, SCENARIO};
 use super::suggest;
 use super::tree::{Entry, Node, Table, Value, parse_value};
 
-/// Puts the value of an override at its dotted path, making tables on the way where there are none.
+/// Sets the value of an override at its dotted path, and creates missing tables on the path.
 pub(super) fn set(root: &mut Node, path: &str, value: &str, origin: Origin, report: &Report) {
     let names: Vec<&str> = path.split('.').map(str::trim).collect();
     if names.iter().any(|name| name.is_empty()) {
@@ -14,7 +14,7 @@ pub(super) fn set(root: &mut Node, path: &str, value: &str, origin: Origin, repo
         return;
     }
     if names.len() > DEEPEST {
-        report.problem(origin, path, "there is no such field: no path is that long");
+        report.problem(origin, path, "there is no such field: the path is too long");
         return;
     }
     if let Some(node) = descend(root, &names, path, origin, report) {
@@ -102,7 +102,7 @@ fn add_schedule(table: &mut Table, name: &str, entry: Entry) {
     };
     match (there, entry.node.value) {
         (Value::List(list), Value::List(more)) => list.extend(more),
-        // Whichever is no list stays, and is reported when it is read.
+        // A value that is not a list stays, and is reported when it is read.
         (there @ Value::List(_), other) => *there = other,
         _ => {}
     }

@@ -1,4 +1,4 @@
-//! Reads `event`: whatever steers a run, and when.
+//! Reads `event`: interventions and their times.
 
 use super::names::Names;
 use super::report::{Origin, Report};
@@ -193,7 +193,7 @@ fn place(table: Section<'_>, kind: &str) -> Option<Point> {
         }
         (false, true) => return Some(Point::ZERO),
         (false, false) => {
-            let message = format!("is missing: an event of kind `{kind}` needs it");
+            let message = format!("is missing in an event of the kind `{kind}`");
             let help = "give [x, y] or, with a `rate`, `within`";
             table.problem("position", message, help);
         }

@@ -83,7 +83,7 @@ pub(super) fn check_time(table: Section<'_>, at: Option<Duration>, duration: Dur
     }
 }
 
-/// The fields that a kind of fault needs, and those that it may have; none for what is no fault.
+/// The required and the optional fields of a kind of fault; none if it is not a fault.
 pub(super) fn fields(kind: &str) -> Option<(&'static [&'static str], &'static [&'static str])> {
     match kind {
         "partition" | "one_way" => Some((&["groups"], &[])),
@@ -107,13 +107,13 @@ pub(super) fn check_fields(
     for field in table.names().filter(|field| !common.contains(field)) {
         let is_needed = needed.contains(&field);
         if table.is_written(field) && !is_needed && !optional.contains(&field) {
-            let message = format!("{what} of kind `{kind}` takes no `{field}`");
-            table.problem(field, message, "leave it out");
+            let message = format!("{what} of the kind `{kind}` has no `{field}`");
+            table.problem(field, message, "remove it");
         } else if is_needed && !table.has(field) {
-            let message = format!("is missing: {what} of kind `{kind}` needs it");
+            let message = format!("is missing in {what} of the kind `{kind}`");
             let help = match table.field(field).kind {
                 Kind::Robots | Kind::RobotGroups => "name robots, or groups of them".to_string(),
-                kind => format!("give it: {}", kind.describe()),
+                kind => format!("give a value: {}", kind.describe()),
             };
             table.problem(field, message, help);
         }

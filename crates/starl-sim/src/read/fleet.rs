@@ -1,4 +1,4 @@
-//! Reads `robots`: what each group of the fleet is, but not yet where its robots start.
+//! Reads `robots`: the groups of the fleet, without the starts of their robots.
 
 use super::parameter::{add_parameters, model};
 use super::report::Origin;
@@ -107,7 +107,7 @@ fn draft(
     }
     let own_program = table.text("program");
     if own_program.is_none() && program.is_none() && !table.has("program") {
-        let help = "name one here, or for all at the top of the scenario";
+        let help = "set `program` here, or for all robots at the top of the scenario";
         table.problem("program", "is missing", help);
     }
     let mut own_parameters = parameters.clone();
@@ -203,7 +203,7 @@ fn add_models(
             continue;
         }
         let Some(program) = program.clone() else {
-            let message = format!("the scenario has no {model} and says no program for one");
+            let message = format!("the scenario has no {model}, and no program for one");
             let help = "add a group of this model to the scenario, or a `program` for all";
             root.report.problem_with_help(origin, "", message, help);
             continue;

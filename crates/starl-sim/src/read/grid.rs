@@ -54,7 +54,7 @@ impl Grid {
         }
     }
 
-    /// Takes in a body.
+    /// Adds a body.
     pub fn insert(&mut self, body: Body) {
         let (column, row) = self.cell_of(body.position);
         let cell = row * self.columns + column;

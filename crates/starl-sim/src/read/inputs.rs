@@ -38,7 +38,7 @@ pub struct Request {
     pub faults: Option<Source>,
 }
 
-/// All that a scenario was read from.
+/// All inputs of a scenario.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inputs {
     /// The request.
@@ -80,7 +80,7 @@ impl Override {
     /// The argument of `--set`: `network.loss=0.2`.
     ///
     /// # Errors
-    /// Where there is no `=` in it.
+    /// If there is no `=` in it.
     pub fn set(assignment: &str) -> Result<Override, Problem> {
         match assignment.split_once('=') {
             Some((path, value)) => {

@@ -1,9 +1,9 @@
-//! Reads a scenario: a TOML text, the files it names, and what the command line changes of it.
+//! Reads a scenario: a TOML text, the files that it names, and the changes of the command line.
 //!
-//! Invariant: a scenario that is returned is whole and consistent, so that the engine need not doubt
-//! it; whatever is wrong is reported with file, line and field, and nothing is ignored or clamped.
-//! No file is touched here: a [`Loader`] brings those that the scenario names, and what it brought is
-//! kept, so that [`again`] reads the same scenario without it.
+//! Invariant: a returned scenario is complete and consistent, so the engine need not check it. Every problem is
+//! reported with file, line and field; no input is ignored or clamped. This module reads no files: a [`Loader`]
+//! provides those that the scenario names, and their contents are kept, so that [`again`] reads the same scenario
+//! without it.
 
 mod change;
 mod curve;
@@ -56,7 +56,7 @@ use unit::Dimension;
 pub struct Resolved {
     /// The scenario.
     pub scenario: Scenario,
-    /// All that it was read from.
+    /// All inputs that it was read from.
     pub inputs: Inputs,
     places: BTreeMap<String, Place>,
 }
@@ -66,7 +66,7 @@ pub(crate) fn is_quantity(text: &str) -> bool {
     parameter::quantity(text).is_some()
 }
 
-/// A span of time, as scenarios have it: `250ms`; none if the text is none.
+/// A duration in the form of scenarios, `250ms`; none if the text is invalid.
 pub fn duration(text: &str) -> Option<Duration> {
     let (dimension, seconds) = Quantity::split(text)?.in_si()?;
     let is_span = dimension == Dimension::Time && seconds >= 0.0 && seconds.is_finite();
@@ -76,7 +76,7 @@ pub fn duration(text: &str) -> Option<Duration> {
 /// Reads a scenario.
 ///
 /// # Errors
-/// All that is wrong with it.
+/// All problems of the scenario.
 pub fn scenario(request: &Request, loader: &dyn Loader) -> Result<Resolved, Problems> {
     let files = Recorder::new(loader);
     let report = Report::default();
@@ -103,10 +103,10 @@ pub fn scenario(request: &Request, loader: &dyn Loader) -> Result<Resolved, Prob
     })
 }
 
-/// Reads a scenario again from all that it was read from.
+/// Reads a scenario again from its recorded inputs.
 ///
 /// # Errors
-/// Where the inputs were changed, or come from another version: all that is wrong with them.
+/// All problems of the inputs, if they were changed or come from another version.
 pub fn again(inputs: &Inputs) -> Result<Resolved, Problems> {
     scenario(&inputs.request, inputs)
 }

@@ -258,7 +258,7 @@ impl Names {
     fn unknown(&self, name: &str, origin: Origin, path: &str, report: &Report) {
         if let Some(at) = self.joins.first(name) {
             let message = format!("{name} is not there yet: it joins at {}", Duration(at.0));
-            let help = "name it only in events on schedule that come later in time";
+            let help = "name it only in scheduled events with a later time";
             return report.problem_with_help(origin, path, message, help);
         }
         let mut known: Vec<String> = Vec::new();

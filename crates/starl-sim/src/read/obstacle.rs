@@ -118,7 +118,7 @@ fn polygon(table: Section<'_>) -> Option<Obstacle> {
 pub(super) fn explain(error: PolygonError) -> (String, &'static str) {
     match error {
         PolygonError::TooFew => (
-            "this is no outline".to_string(),
+            "this is not an outline".to_string(),
             "give at least three corners, or the two ends of a wall",
         ),
         PolygonError::NotFinite { index } => (

@@ -1,4 +1,4 @@
-//! Reads the tables whose fields are not the scenario's own: parameters of programs and of models.
+//! Reads the tables with fields that programs and models define: their parameters.
 
 use super::schema::{Dimension, Range};
 use super::section::Section;

@@ -13,7 +13,7 @@ impl<'a> Path<'a> {
         name: String::new(),
     };
 
-    /// The path of what is called `name` in here.
+    /// The path of the field `name` in this table.
     pub fn join(&self, name: &str) -> String {
         let mut names = vec![name];
         let mut path = Some(self);

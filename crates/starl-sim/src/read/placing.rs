@@ -100,7 +100,7 @@ impl<'a> Placing<'a> {
         })
     }
 
-    /// Takes in a given start, or reports why a robot cannot stand there.
+    /// Adds a given start, or reports why a robot cannot be there.
     pub fn check(&mut self, draft: &Draft, names: &Names, robot: RobotId, start: &Placed<Pose>) {
         let body = body(draft, start.value.position);
         let name = names.name(robot);

@@ -27,8 +27,7 @@ pub enum Place {
 pub struct Problem {
     /// Where.
     pub place: Place,
-    /// The field it concerns, as a dotted path such as `robots.0.count`; empty where the text is no
-    /// field, as in a world file.
+    /// The field, as a dotted path such as `robots.0.count`; empty if the text is not a field, as in a world file.
     pub field: String,
     /// The problem.
     pub message: String,
@@ -36,7 +35,7 @@ pub struct Problem {
     pub help: Option<String>,
 }
 
-/// All that is wrong with an input; at least one problem, in the order of the text.
+/// All problems of an input, at least one, in the order of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problems(pub Vec<Problem>);
 

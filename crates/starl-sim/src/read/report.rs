@@ -1,4 +1,4 @@
-//! Collects the problems found while an input is read, so that all of them are told at once.
+//! Collects the problems found while an input is read, so that all of them are reported together.
 
 use super::problem::{Place, Problem, Problems, line_and_column};
 use std::cell::RefCell;
@@ -22,7 +22,7 @@ enum Text {
     Option(String),
 }
 
-/// The texts being read and what is wrong with them.
+/// The texts being read and their problems.
 #[derive(Default)]
 pub(super) struct Report {
     texts: RefCell<Vec<Text>>,
@@ -30,7 +30,7 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Takes in a file; the origin of its beginning.
+    /// Adds a file; returns the origin of its beginning.
     pub fn file(&self, name: &str, text: &str) -> Origin {
         self.add(Text::File {
             name: name.to_string(),
@@ -38,7 +38,7 @@ impl Report {
         })
     }
 
-    /// Takes in a command-line option.
+    /// Adds a command-line option.
     pub fn option(&self, option: &str) -> Origin {
         self.add(Text::Option(option.to_string()))
     }
@@ -52,7 +52,7 @@ impl Report {
         }
     }
 
-    /// Where a person finds what is at this origin.
+    /// The position of this origin for messages.
     pub fn place(&self, origin: Origin) -> Place {
         match self.texts.borrow().get(origin.text as usize) {
             Some(Text::File { name, text }) => {

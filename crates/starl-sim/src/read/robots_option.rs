@@ -7,7 +7,7 @@ use super::suggest;
 /// Models with how many of each, in the order given.
 pub(super) type Fleet = Vec<(String, u64)>;
 
-/// Reads the option; what is wrong with it goes to the report.
+/// Reads the option; problems go to the report.
 pub(super) fn read(text: &str, report: &Report) -> (Fleet, Origin) {
     let origin = report.option(&format!("--robots {text}"));
     let complain = |message: String, help: &str| {

@@ -1,7 +1,7 @@
 //! A typed view of one table of the scenario.
 //!
-//! Invariant: every name in the table is in the schema, or reported; every value asked for is what
-//! the schema says, or reported and replaced by the default so that reading goes on and finds more.
+//! Invariant: every name in the table is in the schema, or reported; every requested value satisfies the schema, or is
+//! reported and replaced by the default, so that reading continues and finds more problems.
 
 use super::path::Path;
 use super::report::{Origin, Report};
@@ -10,7 +10,7 @@ use super::suggest;
 use super::tree::{Node, Table, Value};
 use super::value::Complaint;
 
-/// A table of the scenario and what the schema says of it.
+/// A table of the scenario with its schema.
 #[derive(Clone, Copy)]
 pub(super) struct Section<'a> {
     table: Option<&'a Table>,
@@ -101,7 +101,7 @@ impl<'a> Section<'a> {
         (!absent).then_some(node)
     }
 
-    /// Whether the field is written, even if only as the word that says that there is none.
+    /// Whether the field is written, even as a word such as `none`.
     pub fn is_written(&self, name: &str) -> bool {
         self.table.is_some_and(|table| table.contains_key(name))
     }
@@ -146,7 +146,7 @@ impl<'a> Section<'a> {
             if *default == Default::Required {
                 let help = match kind {
                     Kind::Tables(_) => format!("write [[{}]]", self.path.join(name)),
-                    kind => format!("give it: {}", kind.describe()),
+                    kind => format!("give a value: {}", kind.describe()),
                 };
                 self.complain(self.origin, name, ("is missing".to_string(), Some(help)));
             }

@@ -8,7 +8,7 @@ use super::{event, fault, network, place, reach, suggest, world};
 use crate::scenario::*;
 use starl_motion::avoidance;
 
-/// The scenario, or none if so much is wrong that later checks would only confuse.
+/// The scenario, or none if its problems would make later checks misleading.
 pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -> Option<Scenario> {
     let title = root
         .text("title")

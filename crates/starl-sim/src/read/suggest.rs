@@ -12,7 +12,7 @@ pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Opt
         .map(|(_, candidate)| candidate)
 }
 
-/// `did you mean "loss"?`, or else what there is to choose from.
+/// `did you mean "loss"?`, or else the list of candidates.
 pub fn help(word: &str, candidates: &[&str], kind: &str) -> Option<String> {
     if let Some(candidate) = nearest(word, candidates.iter().copied()) {
         return Some(format!("did you mean `{candidate}`?"));

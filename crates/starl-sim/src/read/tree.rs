@@ -1,8 +1,8 @@
-//! The values of a TOML text with the place of each, whatever they mean.
+//! The values of a TOML text with the position of each, without interpretation.
 //!
-//! The `toml` crate finds tokens and builds its own tree with spans; ours also remembers which text
-//! a value came from, so that values of the command line and of a fault file can be put into the
-//! tree of the scenario and are still blamed where they were written.
+//! The `toml` crate finds tokens and builds its own tree with spans; ours also remembers which text a value came from,
+//! so that values of the command line and of a fault file can be added to the tree of the scenario, and problems are
+//! reported where they were written.
 
 use super::report::{Origin, Report};
 use std::collections::BTreeMap;
@@ -74,7 +74,7 @@ impl Node {
     }
 }
 
-/// Parses a whole document; what is wrong with its syntax goes to the report.
+/// Parses a whole document; syntax errors go to the report.
 pub(super) fn parse_document(text: &str, start: Origin, report: &Report) -> Option<Node> {
     match DeTable::parse(text) {
         Ok(table) => Some(Node {

@@ -72,7 +72,7 @@ impl Dimension {
         own.map(|unit| unit.name)
     }
 
-    /// All that may be written for its units, such as `us` and `\u{b5}s`.
+    /// All spellings of its units, such as `us` and `\u{b5}s`.
     pub fn spellings(self) -> impl Iterator<Item = &'static str> {
         self.unit_names().flat_map(|name| {
             let others = ALIASES.iter().filter(move |(_, plain)| *plain == name);
@@ -109,7 +109,7 @@ impl Dimension {
     }
 }
 
-/// A unit: so many of it, times `times`, over `over`, are SI. Two exact whole numbers instead of one
+/// A unit: a number of it, times `times`, divided by `over`, is in SI. Two exact whole numbers instead of one
 /// factor, so that `75mm` is the number nearest to 0.075.
 struct Unit {
     name: &'static str,

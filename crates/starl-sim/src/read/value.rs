@@ -213,7 +213,7 @@ fn ranged(number: f64, node: &Node) -> Result<f64, Complaint> {
     Err((format!("{described} is {fault}"), None))
 }
 
-/// `[x, y]`, and `[x, y, z]` where allowed; the number of coordinates given tells them apart.
+/// `[x, y]`, and `[x, y, z]` where allowed; the number of coordinates distinguishes them.
 pub(super) fn point(
     node: &Node,
     dimension: Dimension,
@@ -247,7 +247,7 @@ pub(super) fn heights(node: &Node) -> Result<(f64, f64), Complaint> {
     }
 }
 
-/// The number a quantity's default stands for.
+/// The value of a quantity's default.
 pub(super) fn default_number(kind: &Kind, text: &str) -> f64 {
     let node = Node {
         origin: Default::default(),

@@ -1,4 +1,4 @@
-//! Reads `world`, and puts together what it says and what its files say.
+//! Reads `world`, and merges it with its files.
 
 use super::inputs::Recorder;
 use super::names::Names;

@@ -16,7 +16,7 @@ use crate::scenario::{Thing, WorldObstacle};
 use starl_core::{ConvexPolygon, Duration, Obstacle, Point, Pose, Time, WayPoint, math};
 use word::{Word, words};
 
-/// Adds what is in a file to the world.
+/// Adds the contents of a file to the world.
 pub(super) fn read(
     name: &str,
     bytes: &[u8],
@@ -64,7 +64,7 @@ pub(super) fn read(
             offset: begin.offset + skipped as u32,
             ..begin
         };
-        // `Obstacles_square.wpt` of StarL 1.5 ends with a lifetime that belongs to no obstacle.
+        // `Obstacles_square.wpt` of StarL 1.5 ends with a lifetime without an obstacle.
         if !matches!(line_of_fields.trim(), "" | "-1") {
             // The error was reported; the next line may be correct.
             let _ = file.line(line_of_fields, begin);

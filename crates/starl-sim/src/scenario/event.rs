@@ -39,7 +39,7 @@ pub(crate) struct Joins {
 }
 
 impl Joins {
-    /// Robots that join a fleet of so many under these names.
+    /// Robots that join a fleet of this size under these names.
     pub fn new(fleet: usize, mut list: Vec<(Moment, String)>) -> Joins {
         list.sort_by_key(|(moment, _)| *moment);
         let first = fleet as u32;

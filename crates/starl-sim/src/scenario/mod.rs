@@ -68,7 +68,7 @@ pub enum Goal {
     AllFinished,
     /// The run lasts as long as it should; its programs have no end of their own.
     Duration,
-    /// A condition over the robots, in the language of their programs, has come true; the run ends then. A host that knows
+    /// A condition over the robots, in the language of their programs, is true; the run ends then. A host that knows
     /// the language watches it: [`crate::Run::set_goal`].
     Condition(String),
 }
@@ -98,7 +98,7 @@ pub struct Positioning {
 /// How exactly robots move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    /// Standard deviation of the relative error of the speeds that drives are told; default 0.
+    /// Standard deviation of the relative error of commanded speeds; default 0.
     pub speed_noise: f64,
     /// Standard deviation of the relative error of rates of turn; default 0.
     pub turn_noise: f64,
@@ -111,7 +111,7 @@ pub struct Motion {
 /// The storage of robots, which survives a crash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Storage {
-    /// Whether robots have storage that outlasts a crash; default false.
+    /// Whether robots have storage that survives a crash; default false.
     pub kept: bool,
     /// How long a write takes; one that a crash cuts short has not begun; default 5 ms.
     pub write_time: Duration,

@@ -139,8 +139,8 @@ impl Network {
         }
     }
 
-    /// Delays that are shorter than the resolution, so that they do not act as they are given; none where
-    /// datagrams are to arrive at once.
+    /// Delays that are shorter than the resolution and therefore have no exact effect; none if datagrams arrive
+    /// immediately.
     pub fn too_short_delays(&self) -> impl Iterator<Item = Duration> {
         let overrides = self.overrides.iter().map(|different| &different.link);
         let delays = overrides.chain([&self.link]).map(|link| link.delay);

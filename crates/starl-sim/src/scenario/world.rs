@@ -9,7 +9,7 @@ pub struct World {
     pub bounds: Option<Bounds>,
     /// The obstacles.
     pub obstacles: Vec<WorldObstacle>,
-    /// Places handed to every program.
+    /// The waypoints of every program.
     pub way_points: Vec<WayPoint>,
     /// Things to be found by detectors.
     pub things: Vec<Thing>,
@@ -52,7 +52,7 @@ impl Bounds {
     }
 }
 
-/// An obstacle with what the simulator knows of it.
+/// An obstacle with the simulator's data about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorldObstacle {
     /// Its shape and place.

@@ -39,7 +39,7 @@ mod tests {
     use super::minimise;
 
     #[test]
-    fn what_is_needed_is_left() {
+    fn necessary_items_remain() {
         let list: Vec<u32> = (0..100).collect();
         for needed in [vec![], vec![0], vec![99], vec![3, 50], vec![10, 11, 12, 90]] {
             let mut tries = 0;
@@ -53,7 +53,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_can_be_left_out_of_what_is_left() {
+    fn the_result_is_minimal() {
         // Any three of them do.
         let list: Vec<u32> = (0..20).collect();
         let kept = minimise(&list, &mut |part| part.len() >= 3);

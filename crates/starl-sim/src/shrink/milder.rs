@@ -1,6 +1,6 @@
-//! A milder network, right clocks, exact sensors and motion.
+//! Reductions of the trouble: a better network, correct clocks, exact sensors and motion.
 //!
-//! Every change takes away trouble or lessens it, so that the search comes to an end.
+//! Every change removes or reduces a trouble, so the search ends.
 
 use super::Search;
 use crate::Scenario;
@@ -58,7 +58,7 @@ const CHANGES: &[Change] = &[
         )
     },
     |scenario| {
-        // An exponential delay is no shorter than its jitter.
+        // An exponential delay is not shorter than its jitter.
         let link = &mut scenario.network.link;
         let default = Link::default();
         link.delay > default.delay && set(&mut link.delay, default.delay) && {

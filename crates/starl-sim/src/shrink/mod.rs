@@ -1,17 +1,17 @@
-//! Makes a scenario that fails as small as it can be while it still fails: fewer robots, fewer faults, a
-//! shorter run, a milder network, clocks that are right, an emptier world.
+//! Shrinks a failing scenario while it still fails: fewer robots, fewer faults, a shorter run, a better network,
+//! correct clocks, an emptier world.
 //!
-//! Every step proposes a smaller scenario and keeps it if it fails in the same way. Lists are reduced by
-//! delta debugging (Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input"). All
-//! kinds of steps are tried in turn until none helps any more, so the result is minimal in this sense: no
-//! single robot, fault or network problem can be removed. This holds for the tried seeds: because fewer
-//! robots draw other numbers, a few seeds are tried where the first one does not fail.
+//! Every step proposes a smaller scenario and keeps it if it fails in the same way. Lists are reduced by delta
+//! debugging (Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input"). All kinds of steps are
+//! tried in turn until none succeeds, so the result is minimal in this sense: no single robot, fault or network problem
+//! can be removed. This holds for the tried seeds: because fewer robots draw other numbers, a few seeds are tried where
+//! the first one does not fail.
 //!
-//! A smaller fleet may fail for another reason: two robots form no polygon. So where the fleet does not
-//! fail without trouble, with several seeds, no fleet is taken that does. Where a majority of the robots was up and
-//! connected all the time, it stays so; where it was lost, the fleet stays large enough to have one.
+//! A smaller fleet may fail for another reason: two robots form no polygon. So if the whole fleet does not fail without
+//! trouble, with several seeds, no smaller fleet is accepted that does. If a majority of the robots was up and
+//! connected all the time, this stays so; if it was lost, the fleet stays large enough to have one.
 //!
-//! The caller decides what fails; nothing here runs anything.
+//! The caller decides what fails; this module does not run scenarios.
 
 mod delta;
 mod faults;
@@ -25,7 +25,7 @@ use starl_core::{Duration, Time};
 
 pub use robots::keep_robots;
 
-/// How long to go on.
+/// How long to continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Smaller scenarios that are tried at most; default 1,000.
@@ -58,7 +58,7 @@ pub struct Shrunk {
 /// way; none if it did not. With `shorter` the run is cut off when it fails, which makes no sense where the
 /// failure is that something did not happen.
 ///
-/// Gives none if the scenario does not fail at all.
+/// Returns `None` if the scenario does not fail at all.
 pub fn shrink(
     scenario: &Scenario,
     limits: Limits,

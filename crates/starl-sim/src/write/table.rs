@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_keep_what_toml_would_take_for_something_else() {
+    fn texts_that_look_like_other_toml_values_stay_texts() {
         assert_eq!(
             text("a \"b\" \\ \n\u{7f}é"),
             "\"a \\\"b\\\" \\\\ \\u000A\\u007Fé\""

@@ -63,7 +63,7 @@ fn the_bounds_of_the_world_hold_robots_in() {
 }
 
 #[test]
-fn a_body_passes_under_what_is_above_it() {
+fn a_body_passes_under_an_obstacle_above_it() {
     let mut scenario = scenario("create", &[(0.0, 0.0)]);
     let (low, high) = (Point::new(1.0, -1.0, 0.4), Point::new(1.1, 1.0, 0.5));
     scenario
@@ -96,7 +96,7 @@ impl Program for Feeler {
 }
 
 #[test]
-fn the_bumper_tells_the_side_of_the_contact() {
+fn the_bumper_shows_the_side_of_the_contact() {
     for (y, left, right) in [(0.12, true, false), (-0.12, false, true), (0.0, true, true)] {
         let mut scenario = scenario("create", &[(0.0, 0.0)]);
         let post = Obstacle::circle(Point::planar(1.0, y), 0.05);

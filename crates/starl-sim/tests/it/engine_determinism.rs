@@ -75,7 +75,7 @@ fn recording_does_not_change_the_run() {
 }
 
 #[test]
-fn a_copy_goes_on_as_the_original() {
+fn a_copy_continues_as_the_original() {
     let mut original = simulate(busy(5), Wander::default());
     run(&mut original, 1.0);
     let mut copy = original.clone();

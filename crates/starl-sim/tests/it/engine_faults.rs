@@ -168,7 +168,7 @@ fn corruption_changes_the_programs_variables() {
 }
 
 #[test]
-fn random_crashes_come_at_their_rate_and_end() {
+fn random_crashes_have_their_rate_and_end() {
     let places: Vec<(f64, f64)> = (0..100).map(|i| (f64::from(i), 0.0)).collect();
     let mut scenario = scenario("create", &places);
     scenario.faults.rates.crash = 0.02;

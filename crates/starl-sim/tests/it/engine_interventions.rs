@@ -1,4 +1,4 @@
-//! A run that is steered from outside: each intervention does what it says, is on record, and can be repeated.
+//! A run that is steered from outside: each intervention takes effect, is recorded, and can be repeated.
 
 use crate::engine_support::{Wander, count, exact_delay, obstacle, run, scenario, simulate};
 use crate::reading;
@@ -23,7 +23,7 @@ fn wall(x: f64) -> Obstacle {
     Obstacle::polygon(ConvexPolygon::rectangle(low, high).expect("a rectangle"))
 }
 
-/// Reports what it is told, and does what it is told: an order `take` or `put_down` moves the gripper.
+/// Reports its orders, and obeys them: an order `take` or `put_down` moves the gripper.
 #[derive(Clone, Primitives)]
 struct Listener;
 
@@ -122,7 +122,7 @@ fn a_robot_that_is_down_hears_no_order() {
 }
 
 #[test]
-fn programs_hear_of_new_waypoints_and_read_them() {
+fn programs_are_notified_of_new_waypoints() {
     let mut simulation = listeners();
     let way_point = |x| {
         Intervention::SetWayPoint(WayPoint {
@@ -265,7 +265,7 @@ fn the_network_changes_from_one_moment_to_the_next() {
 }
 
 #[test]
-fn a_robot_that_joins_takes_part_and_one_that_leaves_is_gone() {
+fn robots_join_and_leave() {
     let mut simulation = listeners();
     let join = |x| Intervention::Join {
         like: R0,
@@ -275,7 +275,7 @@ fn a_robot_that_joins_takes_part_and_one_that_leaves_is_gone() {
     let taken = simulation.apply(at(0), join(0.1));
     assert_eq!(
         taken,
-        Err("something stands where the robot is to join".into())
+        Err("the place where the robot joins is occupied".into())
     );
     simulation.apply(at(1000), join(2.0)).expect("it is fine");
     let records = run(&mut simulation, 2.0);
@@ -306,7 +306,7 @@ fn a_robot_that_joins_takes_part_and_one_that_leaves_is_gone() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_with_a_reason_and_changes_nothing() {
+fn impossible_interventions_are_rejected_with_a_reason_and_change_nothing() {
     let mut simulation = listeners();
     let digest = simulation.digest();
     let loss = Intervention::Network(vec![NetworkKnob::Loss(1.5)]);
@@ -458,7 +458,7 @@ fn the_scenario_of_a_steered_run_goes_as_the_run_went() {
 }
 
 #[test]
-fn a_snapshot_steered_alike_goes_on_alike() {
+fn equal_interventions_on_a_snapshot_give_equal_runs() {
     let mut original = simulate(pair(), Wander::default());
     run(&mut original, 2.5);
     let mut copy = original.clone();
@@ -468,7 +468,7 @@ fn a_snapshot_steered_alike_goes_on_alike() {
 }
 
 #[test]
-fn events_at_a_rate_come_at_random_times_and_places_that_the_seed_decides() {
+fn the_seed_decides_times_and_places_of_events_at_a_rate() {
     let mut scenario = pair();
     scenario.events.push(ScenarioEvent {
         occasion: Occasion::Rate {

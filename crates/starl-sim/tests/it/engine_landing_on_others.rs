@@ -1,5 +1,5 @@
-//! A robot that comes down on another which drives off from under it is stopped like any other: their
-//! bodies do not overlap, although their centres part.
+//! A robot that lands on another, which drives away under it, is stopped like any other: their bodies do not overlap,
+//! although their centres move apart.
 
 use crate::engine_support::{scenario, simulate};
 use starl_core::motion::Body;

@@ -126,7 +126,7 @@ fn held_back_datagrams_are_overtaken() {
 }
 
 #[test]
-fn radio_reaches_as_far_as_its_range() {
+fn radio_reaches_robots_within_its_range() {
     let mut scenario = scenario("create", &[(0.0, 0.0), (1.9, 0.0), (2.1, 0.0)]);
     scenario.network.range = Some(2.0);
     let records = run(&mut simulate(scenario, Chatter::default()), 2.0);

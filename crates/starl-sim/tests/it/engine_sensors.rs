@@ -164,7 +164,7 @@ fn both_walls_of_a_corner_are_seen() {
 }
 
 #[test]
-fn an_obstacle_that_expires_is_gone_from_the_world_and_from_all_knowledge() {
+fn an_expired_obstacle_is_removed_from_the_world_and_from_all_maps() {
     let mut scenario = scenario("create", &[(0.0, 0.0)]);
     for (hidden, y) in [(false, 0.0), (true, 0.3)] {
         let mut post = obstacle(Obstacle::circle(Point::planar(0.6, y), 0.1));

@@ -1,5 +1,5 @@
-//! An election without epochs is caught from random seeds, and shrunk to one partition of three robots: the
-//! majority that was there all the time stays.
+//! Random seeds find the fault of an election without epochs, and it is shrunk to one partition of three robots: the
+//! majority that existed all the time remains.
 
 use crate::broken::election::Bully;
 use crate::broken::{hunt, robots};

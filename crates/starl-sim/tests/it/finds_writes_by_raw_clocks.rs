@@ -1,5 +1,5 @@
-//! A shared variable that goes by raw clocks is caught from random seeds, and shrunk to two robots whose
-//! clocks are apart.
+//! Random seeds find the fault of a shared variable that uses raw clocks, and it is shrunk to two robots whose clocks
+//! differ.
 
 use crate::broken::writes::Writer;
 use crate::broken::{hunt, robots};
@@ -22,7 +22,7 @@ fn clocks_that_are_apart_lose_a_later_write() {
 }
 
 #[test]
-fn of_all_that_is_wrong_in_chaos_only_the_clocks_are_left() {
+fn shrinking_chaos_leaves_only_the_clocks() {
     let quarry = hunt(&robots(4), Profile::Chaos, ORDER, &Writer::default());
     let smallest = &quarry.smallest;
     let link = starl_sim::scenario::Link {

@@ -1,5 +1,5 @@
-//! Every robot of a simulation can be run again from its journal alone: over crashes, restarts and corruption,
-//! whatever its sensors show, and while obstacles vanish and are discovered.
+//! Every robot of a simulation can be replayed from its journal alone: over crashes, restarts and corruption, with all
+//! sensors, and while obstacles expire and are discovered.
 
 use crate::engine_support::{exact_delay, obstacle, scenario, simulate};
 use crate::journal_support::{Replay, recorded, replay};
@@ -147,7 +147,7 @@ fn replay_all(scenario: Scenario, seconds: f64) -> Vec<Replay> {
 }
 
 #[test]
-fn with_all_that_robots_can_sense() {
+fn with_all_sensors() {
     let scenario = crowded();
     let mut simulation = simulate(scenario.clone(), Busy::default());
     let records = crate::engine_support::run(&mut simulation, 6.0);

@@ -5,7 +5,7 @@ use starl_host::journal::{Packer, Reader};
 use starl_host::{Observed, Replayer};
 use starl_sim::Simulation;
 
-/// The messages in which a trace of this many seconds holds what was done to robots.
+/// The journal messages of a trace of this many seconds.
 pub fn recorded(simulation: &mut Simulation, seconds: f64) -> Vec<(Time, Vec<u8>)> {
     simulation.set_journal(true);
     let end = Time::ZERO + Duration::from_seconds_f64(seconds);
@@ -26,7 +26,7 @@ pub struct Replay {
     pub corruptions: u32,
 }
 
-/// Replays a robot; panics where its software does not do what it did.
+/// Replays a robot; panics if its software behaves differently.
 pub fn replay(messages: &[(Time, Vec<u8>)], robot: RobotId, program: Box<dyn Program>) -> Replay {
     let mut replayer = Replayer::new(program);
     let mut reader = Reader::new(robot);

@@ -1,5 +1,5 @@
-//! A robot that is alone, with exact positions, follows its path round a pillar without touching it,
-//! avoidance or none: paths keep the body's radius clear, and the robot keeps to them.
+//! A robot that is alone, with exact positions, follows its path round a pillar without touching it, with or without
+//! avoidance: paths keep the body's radius clear, and the robot follows them.
 
 use crate::engine_support::{self, obstacle, scenario, simulate};
 use starl_core::{Event, Obstacle, Point, Primitives, Program, Robot};

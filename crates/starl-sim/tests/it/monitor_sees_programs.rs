@@ -1,5 +1,5 @@
-//! A monitor judges what programs hold and where robots truly are, after every step; what it finds is
-//! told like any other violation.
+//! A monitor judges the variables of programs and the true positions of robots after every step; its violations are
+//! reported like any other.
 
 use crate::engine_support::scenario;
 use starl_core::event::Name;
@@ -17,7 +17,7 @@ impl Program for Counter {
     fn activate(&mut self, robot: &mut Robot<'_>) {
         self.0 += 1;
         if self.0 == 3 && robot.id().0 == 1 {
-            robot.fail("it cannot go on");
+            robot.fail("it cannot continue");
         }
     }
 
@@ -86,7 +86,7 @@ fn run(limit: u32) -> Run {
 }
 
 #[test]
-fn a_violation_is_told_with_time_robot_and_state() {
+fn a_violation_is_reported_with_time_robot_and_state() {
     let mut run = run(3);
     let mut told = Vec::new();
     while !run.is_over() {
@@ -111,7 +111,7 @@ fn a_violation_is_told_with_time_robot_and_state() {
 }
 
 #[test]
-fn what_is_still_open_is_neither_held_nor_violated() {
+fn open_properties_have_their_own_verdict() {
     let mut run = run(100);
     while !run.is_over() {
         run.step();
@@ -136,6 +136,6 @@ fn a_program_that_failed_is_named_with_its_reason() {
     };
     assert_eq!(failure.robot, starl_core::RobotId(1));
     assert_eq!(failure.at, Time(200_000_000));
-    assert_eq!(failure.text, "it cannot go on");
+    assert_eq!(failure.text, "it cannot continue");
     assert_eq!(run.outcome(), Outcome::Failed);
 }

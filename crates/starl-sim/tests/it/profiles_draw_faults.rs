@@ -144,7 +144,7 @@ fn only_corruption_overwrites_state() {
 }
 
 #[test]
-fn what_is_drawn_can_be_written_and_read() {
+fn drawn_faults_can_be_written_and_read() {
     every_case(|profile, _, drawn| {
         let read = broken::read(&write::scenario(&drawn));
         let Some(read) = read else {

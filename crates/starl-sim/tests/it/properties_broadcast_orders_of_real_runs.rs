@@ -36,7 +36,7 @@ impl Program for Teller {
 struct Presumptuous {
     heard: BTreeMap<RobotId, Time>,
     sent: u32,
-    /// The place that is given next, or handed out next.
+    /// The place that is given next, or delivered next.
     place: u32,
     waiting: BTreeMap<u32, (RobotId, u32)>,
 }

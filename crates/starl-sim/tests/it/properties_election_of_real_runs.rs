@@ -53,7 +53,7 @@ impl Program for Elector {
 /// a restart. The leader is lost sight of when it has been silent for two seconds.
 #[derive(Clone)]
 struct Naive {
-    /// So many votes of others make a leader.
+    /// The number of others' votes that make a leader.
     needed: usize,
     count: u64,
     votes: Vec<RobotId>,

@@ -183,7 +183,7 @@ fn a_bound_shorter_than_the_way_breaks_progress() {
 }
 
 #[test]
-fn only_what_the_scenario_asks_for_is_checked() {
+fn only_enabled_properties_are_checked() {
     let mut scenario = three_robots();
     scenario.network.link.loss = 1.0;
     scenario.properties.broadcast = false;

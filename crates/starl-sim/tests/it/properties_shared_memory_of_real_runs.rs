@@ -166,7 +166,7 @@ fn the_primitive_keeps_its_promises_under_every_fault() {
 }
 
 #[test]
-fn one_that_sends_once_does_not_converge_where_datagrams_are_lost() {
+fn a_memory_that_sends_once_does_not_converge_if_datagrams_are_lost() {
     let (found, _) = violated(fleet(6, 1), Naive::default());
     assert_eq!(found, [] as [&str; 0]);
     let mut lossy = fleet(6, 1);
@@ -176,7 +176,7 @@ fn one_that_sends_once_does_not_converge_where_datagrams_are_lost() {
 }
 
 #[test]
-fn one_that_goes_by_raw_clocks_loses_later_writes() {
+fn a_memory_that_uses_raw_clocks_loses_later_writes() {
     let mut scenario = fleet(6, 1);
     scenario.fleet.groups[0].clock.offset = Duration::from_seconds(3600);
     let (found, _) = violated(scenario, Naive::default());
@@ -187,7 +187,7 @@ fn one_that_goes_by_raw_clocks_loses_later_writes() {
 }
 
 #[test]
-fn one_that_spoils_values_is_found_out() {
+fn a_memory_that_changes_values_is_detected() {
     let spoiling = Naive {
         spoils: true,
         ..Naive::default()

@@ -1,5 +1,5 @@
-//! Each kind of bad input gets the message a person should see: the cases are the Markdown files in
-//! `bad_scenarios/`. With `BLESS=1` what is said now is written into them instead.
+//! Each kind of bad input gets the right message: the cases are the Markdown files in `bad_scenarios/`. `BLESS=1`
+//! rewrites them.
 
 #![allow(clippy::disallowed_methods)] // the test reads files
 

@@ -5,7 +5,7 @@ use starl_sim::Scenario;
 use starl_sim::scenario::{Clock, SensorSuite};
 
 #[test]
-fn what_is_left_out_is_at_its_default() {
+fn omitted_fields_have_their_defaults() {
     let read = reading::read(reading::LEAST, &[]).unwrap().scenario;
     let mut expected = Scenario {
         title: "run".to_string(),

@@ -74,7 +74,7 @@ fn transforms_of_groups_apply() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_named_with_its_place() {
+fn unsupported_drawings_are_reported_with_their_position() {
     for (svg, says) in [
         ("<svg viewBox='0 0 1 1'>", "this is not a drawing in SVG"),
         ("<svg/>", "the drawing has no size"),

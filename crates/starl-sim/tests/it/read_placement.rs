@@ -126,7 +126,7 @@ fn robots_keep_clear_of_obstacles_and_inside_their_area() {
 }
 
 #[test]
-fn without_an_area_robots_are_placed_around_what_there_is() {
+fn without_an_area_robots_are_placed_around_the_world() {
     let text = "program = \"race\"\n[[world.way_point]]\nname = \"A\"\nposition = [5, 5]\n\
         [[world.way_point]]\nname = \"B\"\nposition = [6, 5]\n[[robots]]\nmodel = \"create\"\ncount = 4\n";
     for pose in starts(&reading::read(text, &[]).unwrap().scenario) {

@@ -75,7 +75,7 @@ fn the_original_world_is_read_in_metres() {
 }
 
 #[test]
-fn twelve_robots_fit_whatever_the_seed() {
+fn twelve_robots_fit_with_every_seed() {
     let original = race(None, 1).scenario;
     for seed in 0..200 {
         let scenario = race(Some("create=6,drone=6"), seed).scenario;
@@ -119,7 +119,7 @@ fn a_smaller_fleet_leaves_starts_unused_and_a_new_model_gets_places() {
         .map(|id| scenario.fleet.name(RobotId(id)))
         .collect();
     assert_eq!(names, ["quadcopter0", "car0", "car1"]);
-    // The starts of robots that do not take part are no waypoints either.
+    // The starts of robots that do not take part are not waypoints either.
     assert_eq!(scenario.world.way_points.len(), 4);
     assert!(
         scenario
@@ -131,7 +131,7 @@ fn a_smaller_fleet_leaves_starts_unused_and_a_new_model_gets_places() {
 }
 
 #[test]
-fn what_was_recorded_is_read_again_the_same() {
+fn recorded_inputs_give_the_same_scenario() {
     let resolved = race(Some("create=3,drone=2"), 9);
     let recorded = serde_json::to_string(&resolved.inputs).unwrap();
     let inputs: Inputs = serde_json::from_str(&recorded).unwrap();

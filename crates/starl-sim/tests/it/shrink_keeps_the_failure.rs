@@ -26,7 +26,7 @@ fn shrunk(limits: Limits, fails: impl Fn(&Scenario) -> bool) -> Shrunk {
 }
 
 #[test]
-fn what_is_not_needed_goes() {
+fn unnecessary_parts_are_removed() {
     let smallest = shrunk(Limits::default(), |scenario| crashes(scenario) >= 2);
     assert!(smallest.is_minimal);
     let scenario = smallest.scenario;
@@ -79,7 +79,7 @@ fn faults_of_robots_that_are_left_out_go_with_them() {
 }
 
 #[test]
-fn a_majority_that_was_there_stays_there() {
+fn an_existing_majority_is_kept() {
     // Fails whenever a robot crashes: of two robots, one that crashes would leave no majority.
     let base = robots(5);
     let mut drawn = base.clone();
@@ -102,7 +102,7 @@ fn a_majority_that_was_there_stays_there() {
 }
 
 #[test]
-fn where_the_majority_was_lost_a_fleet_stays_that_could_have_one() {
+fn with_a_lost_majority_the_fleet_stays_large_enough_for_one() {
     let mut drawn = robots(5);
     drawn.faults.schedule = (0..3)
         .map(|robot| starl_sim::scenario::Fault {

@@ -73,7 +73,7 @@ fn without_faults_it_is_the_time_since_the_start() {
 }
 
 #[test]
-fn a_crash_and_a_restart_are_disturbances_and_the_time_between_is_none() {
+fn crashes_and_restarts_are_disturbances_but_not_the_time_between() {
     let times = calm_times(&[
         (300, FaultKind::Crash(one())),
         (700, FaultKind::Restart(one())),
@@ -85,7 +85,7 @@ fn a_crash_and_a_restart_are_disturbances_and_the_time_between_is_none() {
 }
 
 #[test]
-fn while_the_network_is_parted_there_is_no_calm() {
+fn a_partition_is_a_disturbance() {
     let times = calm_times(&[
         (300, FaultKind::Partition(vec![one()])),
         (700, FaultKind::Heal),

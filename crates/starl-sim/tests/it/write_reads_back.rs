@@ -1,4 +1,4 @@
-//! A scenario that is written and read again is the same scenario, whatever it says.
+//! A scenario that is written and read again is the same scenario.
 
 use crate::engine_support::{Wander, simulate};
 use crate::reading::{self, fields};

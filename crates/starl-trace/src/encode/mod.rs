@@ -1,4 +1,4 @@
-//! Events as JSON. [`crate::decode`] reads what is written here, bit for bit.
+//! Events as JSON. [`crate::decode`] reads it back exactly.
 
 mod values;
 

@@ -1,4 +1,4 @@
-//! Values, areas, obstacles and waypoints as JSON. [`crate::wire`] reads what is written here.
+//! Values, areas, obstacles and waypoints as JSON. [`crate::wire`] reads them.
 
 use crate::json::Json;
 use starl_core::event::ValueRef;

@@ -29,7 +29,7 @@ pub struct Reader<R> {
 }
 
 impl<R: Read> Reader<R> {
-    /// Reads the header. A file should come through a [`std::io::BufReader`].
+    /// Reads the header. Wrap a file in a [`std::io::BufReader`].
     pub fn new(source: R) -> Result<Reader<R>, TraceError> {
         let mut container = Container::new(source)?;
         let header = opening::read(&mut container)?;
@@ -54,7 +54,7 @@ impl<R: Read> Reader<R> {
         self.summary.as_ref()
     }
 
-    /// How far reading has come.
+    /// The progress of reading.
     pub fn progress(&self) -> Progress {
         self.container.progress
     }
@@ -172,7 +172,7 @@ pub struct Inputs {
     pub data: Vec<u8>,
 }
 
-/// Gives the records alone.
+/// Returns the records alone.
 impl<R: Read> Iterator for Reader<R> {
     type Item = Result<Record, TraceError>;
 

@@ -6,7 +6,7 @@ use crate::{FORMAT_VERSION, Header, TraceError, header, topic};
 use mcap::records::op;
 use std::io::Read;
 
-/// Reads the header. The world is its last part; until that has come, nothing else may.
+/// Reads the header. The world is its last part; no other record may precede it.
 pub fn read<R: Read>(container: &mut Container<R>) -> Result<Header, TraceError> {
     let mut header = Header::default();
     let mut versioned = false;

@@ -1,5 +1,5 @@
-//! Foxglove's own schemas, as far as views use them: <https://docs.foxglove.dev/docs/sdk/schemas>.
-//! Members of entities that are always empty here are described as arrays of nothing in particular.
+//! Foxglove's own schemas, as far as views use them: <https://docs.foxglove.dev/docs/sdk/schemas>. Members of entities
+//! that are always empty here have the schema of an array without element type.
 
 use super::{Member, always, array, boolean, number, object, root, string};
 
@@ -94,7 +94,7 @@ pub(crate) fn scene_update() -> String {
     ];
     root(
         "foxglove.SceneUpdate",
-        "A change of what is drawn in space",
+        "A change of the drawn scene",
         &members,
     )
 }
@@ -159,7 +159,7 @@ fn text() -> [Member<'static>; 6] {
         ),
         always("scale_invariant", boolean("whether the size is in pixels")),
         always("color", color()),
-        always("text", string("what it says")),
+        always("text", string("the text")),
     ]
 }
 

@@ -1,8 +1,8 @@
 //! JSON Schema texts for all topics.
 //!
-//! They keep to what Foxglove's reader of JSON Schema understands: every object lists its
-//! properties, one type each, no references, alternatives only as integer constants. So that a
-//! member may be absent it is left out of `required`, never null.
+//! They use only the features that Foxglove's reader of JSON Schema supports: every object lists its properties, one
+//! type each, no references, alternatives only as integer constants. An optional member is not in `required`; it is
+//! never null.
 
 mod foxglove;
 mod starl;

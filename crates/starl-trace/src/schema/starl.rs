@@ -47,7 +47,7 @@ fn description(topic: Topic) -> &'static str {
         Topic::Pose | Topic::Estimate => {
             "A robot's pose in the world frame: intrinsic yaw, pitch, roll. The centre of the body's base, true on /starl/pose, as the positioning system reported it on /starl/estimate"
         }
-        Topic::Sent => "A robot handed a datagram to the network",
+        Topic::Sent => "A robot passed a datagram to the network",
         Topic::Delivered => "A datagram reached the robot",
         Topic::Dropped => "A datagram did not reach a robot",
         Topic::Collision => "The robot's body met something and was stopped",
@@ -60,7 +60,7 @@ fn description(topic: Topic) -> &'static str {
         }
         Topic::Fault => "A fault set in or was healed",
         Topic::Discovered => "The robot met an obstacle that it did not know",
-        Topic::Status => "The program has reached its goal, or cannot go on",
+        Topic::Status => "The program has reached its goal, or cannot continue",
         Topic::Violation => "A property does not hold",
         Topic::Thing => "The robot took hold of a thing, or put it down",
         Topic::Intervention => "The run is steered from outside",
@@ -85,7 +85,7 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
             always("sequence", count("counts the robot's datagrams")),
             maybe(
                 "to",
-                count("number of the receiving robot; absent for all in reach"),
+                count("number of the receiving robot; absent for all robots in range"),
             ),
             always(
                 "port",
@@ -153,7 +153,7 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
                 "status",
                 word("whether the goal was reached", &["finished", "failed"]),
             ),
-            maybe("reason", string("why the program cannot go on")),
+            maybe("reason", string("why the program cannot continue")),
         ],
         Topic::Violation => vec![
             always("property", string("which property")),
@@ -169,7 +169,7 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
         )],
         Topic::Summary => vec![
             always("outcome", string("how the run ended")),
-            always("digest", string("hash of all that happened, hexadecimal")),
+            always("digest", string("hash of all events, hexadecimal")),
             always(
                 "end_ns",
                 count("when it ended, nanoseconds since the start"),

@@ -1,8 +1,8 @@
-//! Views: what Foxglove draws, made from the records in Foxglove's own schemas.
+//! Views for Foxglove, derived from the records, in Foxglove's own schemas.
 //!
-//! A view holds nothing that the records do not, is rounded to millionths, and comes at most once a
-//! period; readers leave views out. Most panels show only the last message of a topic when one
-//! jumps in time, so each message is whole: all frames together, a path from its beginning.
+//! A view contains only data of the records, is rounded to millionths, and is written at most once a period; readers
+//! skip views. After a jump in time most panels show only the last message of a topic, so each message is complete: all
+//! frames together, a path from its beginning.
 
 mod lines;
 mod pose;
@@ -142,7 +142,7 @@ impl Views {
         Ok(Views(Some(state)))
     }
 
-    /// Time goes on to `at`: all that happened at one time before is shown together, if it is due.
+    /// Advances to `at`: writes the view of all earlier records, if it is due.
     pub fn advance<W: Write>(
         &mut self,
         output: &mut Output<W>,
@@ -159,7 +159,7 @@ impl Views {
         Ok(())
     }
 
-    /// Takes note of an event; marks and lines of the log are shown at once.
+    /// Records an event; marks and lines of the log are shown at once.
     pub fn event<W: Write>(
         &mut self,
         output: &mut Output<W>,
@@ -195,7 +195,7 @@ impl Views {
         Ok(())
     }
 
-    /// Shows what is left.
+    /// Writes the remaining views.
     pub fn finish<W: Write>(&mut self, output: &mut Output<W>) -> Result<(), WriteError> {
         match &mut self.0 {
             Some(state) => {

@@ -1,4 +1,4 @@
-//! Entities of `foxglove.SceneUpdate` and what they are made of.
+//! Entities of `foxglove.SceneUpdate` and their parts.
 
 use crate::json::Json;
 use starl_core::{Point, Time};

@@ -7,8 +7,8 @@ const MOST: usize = 512;
 /// At first, points nearer to each other than this are left out, metres.
 const SPACING: f64 = 0.02;
 
-/// Points along a path, at least a spacing apart. When there are too many, every second one is let go
-/// and the spacing doubles: a long path is shown as whole as a short one, only coarser.
+/// Points along a path, at least a spacing apart. When there are too many, every second one is removed and the spacing
+/// doubles: a long path is shown from its beginning too, only coarser.
 #[derive(Clone, Debug)]
 pub struct Trail {
     kept: Vec<Point>,
@@ -27,7 +27,7 @@ impl Default for Trail {
 }
 
 impl Trail {
-    /// Goes on to a point.
+    /// Extends the trail to a point.
     pub fn extend(&mut self, point: Point) {
         self.latest = Some(point);
         let near = |last: &Point| (point - *last).length_squared() < self.spacing * self.spacing;

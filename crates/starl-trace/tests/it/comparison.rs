@@ -65,7 +65,7 @@ fn the_sign_of_zero_the_robot_and_the_time_make_a_difference() {
 }
 
 #[test]
-fn a_run_that_goes_on_or_stops_early_differs() {
+fn a_longer_or_shorter_run_differs() {
     let (first, second) = (moved(1, 0, 0.0), moved(2, 0, 0.0));
     let longer = first_difference([first.clone()], [first.clone(), second.clone()]).unwrap();
     assert_eq!(
@@ -84,7 +84,7 @@ fn a_run_that_goes_on_or_stops_early_differs() {
 }
 
 #[test]
-fn a_file_is_compared_while_the_run_goes_on() {
+fn a_file_is_compared_during_the_run() {
     let file = common::file(&ViewOptions::default());
     let mut comparison = Comparison::new(Reader::new(file.as_slice()).unwrap());
     for record in common::records() {

@@ -1,11 +1,11 @@
-//! Whatever happens to a file, reading it ends in one clear error, and never in a panic.
+//! Reading a damaged file ends in one clear error, and never in a panic.
 
 use crate::common;
 use starl_core::Random;
 use starl_trace::{Reader, TraceError, ViewOptions, Writer, read};
 
 #[test]
-fn a_file_cut_short_anywhere_is_told_from_a_whole_one() {
+fn a_truncated_file_is_distinguished_from_a_complete_one() {
     let file = common::file(&ViewOptions::default());
     let header_end = Reader::new(file.as_slice()).unwrap().progress().offset;
     let all = common::records().len() as u64;
@@ -61,7 +61,7 @@ fn records_before_the_cut_can_be_read() {
 }
 
 #[test]
-fn a_run_that_stopped_before_its_end_is_told_by_the_missing_end_record() {
+fn an_unfinished_run_is_detected_by_the_missing_end_record() {
     let mut file = Vec::new();
     let mut writer = Writer::new(&mut file, &common::header(), &ViewOptions::default()).unwrap();
     for record in common::records() {
@@ -132,7 +132,7 @@ fn bytes_of_any_kind_are_refused() {
 }
 
 #[test]
-fn files_of_others_are_told_from_damaged_ones() {
+fn foreign_files_are_distinguished_from_damaged_ones() {
     assert_eq!(read(b"").unwrap_err(), TraceError::NotMcap);
     assert_eq!(read(b"#!/bin/sh\n").unwrap_err(), TraceError::NotMcap);
     let mut other = mcap::Writer::new(std::io::Cursor::new(Vec::new())).unwrap();

@@ -37,7 +37,7 @@ fn the_reference_names_every_topic_and_every_member_of_its_schema() {
     }
 }
 
-/// Goes through the members of a schema and of all that is in it; gives their number.
+/// Goes through the members of a schema and of everything that is in it; gives their number.
 fn assert_members_named(schema: &Value) -> usize {
     let mut count = 0;
     if let Some(members) = schema["properties"].as_object() {

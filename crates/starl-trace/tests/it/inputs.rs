@@ -25,7 +25,7 @@ fn inputs() -> Vec<Inputs> {
 }
 
 #[test]
-fn they_come_back_in_their_places() {
+fn inputs_are_read_back_in_order() {
     let file = with_inputs();
     let mut reader = Reader::new(file.as_slice()).unwrap();
     let mut items = std::iter::from_fn(|| reader.next_item().map(Result::unwrap));
@@ -75,7 +75,7 @@ fn other_libraries_read_them() {
 }
 
 #[test]
-fn without_them_nothing_is_said_of_them() {
+fn traces_without_inputs_do_not_mention_them() {
     let mut writer = Writer::new(Vec::new(), &common::header(), &ViewOptions::default()).unwrap();
     writer.inputs(Time::ZERO, b"left out").unwrap();
     let file = writer.finish(&common::outcome()).unwrap();

@@ -1,4 +1,4 @@
-//! A library that is not ours reads the file by its index and understands what is in it.
+//! A third-party library reads the file by its index and decodes its contents.
 
 use crate::common;
 use mcap::MessageStream;

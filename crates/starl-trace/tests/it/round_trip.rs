@@ -7,7 +7,7 @@ use starl_trace::{
 };
 
 #[test]
-fn every_event_comes_back_equal() {
+fn every_event_is_read_back_equal() {
     for options in [ViewOptions::default(), ViewOptions::none()] {
         let trace = read(&common::file(&options)).unwrap();
         assert_eq!(trace.header, common::header());

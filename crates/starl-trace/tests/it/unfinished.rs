@@ -1,4 +1,4 @@
-//! However early a writer stops, what it wrote and what it still held make a trace that can be read.
+//! However early a writer stops, its output and its unfinished messages make a readable trace.
 
 use crate::common;
 use starl_core::Record;
@@ -22,7 +22,7 @@ impl io::Write for Shared {
     }
 }
 
-/// All that can be read of a file, and why not more.
+/// Everything that can be read of a file, and why not more.
 fn readable(file: &[u8]) -> (Vec<Record>, TraceError) {
     let mut reader = Reader::new(file).unwrap();
     let mut records = Vec::new();
@@ -60,7 +60,7 @@ fn every_record_so_far_can_be_read_at_any_time() {
 }
 
 #[test]
-fn what_comes_next_takes_the_place_of_what_was_unfinished() {
+fn later_output_replaces_unfinished_messages() {
     let file = Shared::default();
     let (header, options) = (common::header(), ViewOptions::default());
     let mut writer = Writer::new(file.clone(), &header, &options).unwrap();
@@ -80,7 +80,7 @@ fn what_comes_next_takes_the_place_of_what_was_unfinished() {
 }
 
 #[test]
-fn only_a_missing_end_is_no_damage() {
+fn only_a_missing_end_is_not_damage() {
     let file = common::file(&ViewOptions::default());
     let (_, cut) = readable(&file[..file.len() - 100]);
     assert!(cut.is_missing_end());

@@ -1,4 +1,4 @@
-//! The how-to page of a crate of one's own shows this crate, and what it says of it is so.
+//! The how-to page about a crate of your own shows this crate, and is true.
 
 use std::path::Path;
 use std::process::{Command, Output};

@@ -47,7 +47,7 @@ fn index(world: &World, robot: usize) -> u32 {
 }
 
 #[test]
-fn the_fastest_arrives_everywhere_and_the_others_are_told() {
+fn the_fastest_arrives_everywhere_and_the_others_follow() {
     let mut world = race(4, 1, Wire::perfect());
     world.run_for(Duration::from_seconds(60));
     assert_eq!((arrivals(&world, 3), index(&world, 3)), (4, 4));
@@ -89,7 +89,7 @@ fn a_robot_that_hears_nothing_runs_the_whole_way() {
 }
 
 #[test]
-fn what_a_finished_robot_said_last_still_gets_through() {
+fn the_last_message_of_a_finished_robot_still_arrives() {
     let mut world = race(2, 1, Wire::perfect());
     while finished(&world) == 0 {
         assert!(world.now.seconds() < 60.0);
@@ -112,7 +112,7 @@ fn what_a_finished_robot_said_last_still_gets_through() {
 }
 
 #[test]
-fn a_restarted_robot_runs_again_and_a_dead_one_blocks_no_robot() {
+fn a_restarted_robot_runs_again_and_a_crashed_one_blocks_no_robot() {
     let mut world = race(4, 1, Wire::perfect());
     world.crash(3);
     world.run_for(Duration::from_seconds(8));

@@ -1,4 +1,4 @@
-//! What the drone does with commands, and what its navdata says.
+//! The emulated drone's response to commands, and the content of its navdata.
 
 use crate::BodyHandle;
 use starl_ardrone::at::{AtCommand, Tilt};
@@ -14,7 +14,7 @@ const WATCHDOG_MS: u128 = 50;
 const LOST_MS: u128 = 2000;
 /// How long a full battery lasts in the air, seconds.
 const ENDURANCE_S: f64 = 720.0;
-/// At this charge, per cent, the drone warns, and lands if nobody commands it.
+/// At this charge, per cent, the drone warns, and lands if it gets no commands.
 const LOW_BATTERY: u32 = 20;
 
 #[derive(Debug)]
@@ -76,7 +76,7 @@ impl Flight {
         self.heard = Some(Instant::now());
     }
 
-    /// Takes a command if it is newer than the last one. Number 1 begins to count anew.
+    /// Accepts a command if it is newer than the last one. Number 1 resets the count.
     pub fn take(&mut self, sequence: u32, command: &AtCommand) {
         if sequence <= self.sequence && sequence != 1 {
             return;
@@ -109,7 +109,7 @@ impl Flight {
 
     fn steer(&mut self, tilt: Option<Tilt>) {
         let now = self.body.state().mode;
-        // Until it is high enough the drone listens to nothing but landing.
+        // Until it is high enough the drone obeys only the command to land.
         if !self.fly || matches!(now, mode::LANDED | mode::TAKING_OFF) {
             return;
         }
@@ -143,7 +143,7 @@ impl Flight {
         self.acknowledged = true;
     }
 
-    /// Whether the connection is taken for lost.
+    /// Whether the connection counts as lost.
     pub fn lost(&self) -> bool {
         self.silence_ms().is_none_or(|silence| silence > LOST_MS)
     }
@@ -152,7 +152,7 @@ impl Flight {
         self.heard.map(|heard| heard.elapsed().as_millis())
     }
 
-    /// What happens without commands.
+    /// The drone's reaction to missing commands.
     pub fn watch(&mut self) {
         let now = self.body.elapsed();
         let flying = self.body.state().mode != mode::LANDED;

@@ -28,7 +28,7 @@ pub struct EmulatedArdrone {
 struct Sockets {
     commands: UdpSocket,
     navdata: UdpSocket,
-    /// Who gets navdata.
+    /// The receiver of navdata.
     client: Mutex<Option<SocketAddr>>,
 }
 
@@ -41,7 +41,7 @@ impl EmulatedArdrone {
     /// Puts `body` behind these addresses; port 0 takes any free port.
     ///
     /// # Errors
-    /// Where an address is in use or not this machine's.
+    /// If an address is in use or not this machine's.
     pub fn start(
         body: BodyHandle,
         commands: SocketAddr,
@@ -77,7 +77,7 @@ impl EmulatedArdrone {
     /// Where it gives navdata.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn navdata(&self) -> io::Result<SocketAddr> {
         self.sockets.navdata.local_addr()
     }
@@ -130,7 +130,7 @@ fn turn(sockets: &Sockets, flight: &Mutex<Flight>, due: &mut Instant) -> io::Res
     Ok(())
 }
 
-/// What has arrived, if anything; a client that is gone, whose system has said so, is no error.
+/// The datagram that has arrived, if any. A closed client is not an error.
 fn arrived<T>(received: io::Result<T>) -> io::Result<Option<T>> {
     match received {
         Ok(what) => Ok(Some(what)),

@@ -38,7 +38,7 @@ pub(super) struct Flight {
     watched: Span,
 }
 
-/// What it flies by itself.
+/// A manoeuvre that it flies by itself.
 #[derive(Clone, Copy, Debug)]
 enum Manoeuvre {
     /// To this height, metres.
@@ -123,7 +123,7 @@ impl Flight {
         self.body.state().mode == drone_mode::LANDED
     }
 
-    /// What happens all the time.
+    /// The periodic step.
     pub fn tick(&mut self) {
         let now = self.body.elapsed();
         if !self.stands() {

@@ -1,8 +1,8 @@
 //! An emulated Crazyflie: the model `drone` behind CRTP on a UDP port.
 //!
-//! It differs from hardware in this: it has the model's size and speed, it lands where a real one would fall because its
-//! motors stop, and it has no decks, memories or trajectories. Its own frame begins where it was switched on. Like the
-//! real one it levels out when set-points stop for 0.5 s, and gives up flying after 2 s.
+//! It differs from hardware in this: it has the model's size and speed, it lands where a real one would fall because
+//! its motors stop, and it has no decks, memories or trajectories. Its own frame begins where it was switched on. Like
+//! the real one it levels out when set-points stop for 0.5 s, and gives up flying after 2 s.
 
 mod flight;
 mod service;
@@ -29,7 +29,7 @@ pub struct EmulatedCrazyflie {
 struct Inside {
     flight: Flight,
     desk: Desk,
-    /// Who gets its packets: whoever was heard last.
+    /// The receiver of its packets: the client that it heard last.
     client: Option<SocketAddr>,
 }
 
@@ -40,7 +40,7 @@ impl EmulatedCrazyflie {
     /// Puts `body` behind this address; port 0 takes any free port.
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn start(body: BodyHandle, address: SocketAddr) -> io::Result<EmulatedCrazyflie> {
         let socket = Arc::new(UdpSocket::bind(address)?);
         socket.set_read_timeout(Some(WAIT))?;
@@ -63,7 +63,7 @@ impl EmulatedCrazyflie {
     /// Where it listens.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn address(&self) -> io::Result<SocketAddr> {
         self.socket.local_addr()
     }
@@ -109,7 +109,7 @@ fn turn(socket: &UdpSocket, inside: &mut Inside) -> io::Result<()> {
     inside.flight.tick();
     if let Some(client) = inside.client {
         for packet in inside.desk.due(&inside.flight) {
-            // A client that is gone takes no part any more.
+            // A client that is gone no longer takes part.
             let _ = socket.send_to(&packet, client);
         }
     }

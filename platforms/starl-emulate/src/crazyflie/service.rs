@@ -1,4 +1,4 @@
-//! What an emulated Crazyflie answers, and what it sends by itself.
+//! The answers of an emulated Crazyflie, and the packets that it sends by itself.
 
 use super::flight::Flight;
 use super::table::{PARAMETERS, VARIABLES, encode};
@@ -44,7 +44,7 @@ impl Desk {
     /// Takes a datagram; gives the answers.
     pub fn answer(&mut self, datagram: &[u8], flight: &mut Flight) -> Vec<Vec<u8>> {
         let Some(packet) = Packet::decode(datagram) else {
-            // Clients look with a null packet whether there is somebody.
+            // Clients send a null packet to find out whether the Crazyflie is there.
             let is_null = datagram.len() == 1;
             return if is_null {
                 vec![vec![0xFF]]

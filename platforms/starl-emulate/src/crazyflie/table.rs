@@ -46,7 +46,7 @@ pub(super) const PARAMETERS: [(&str, u8); 3] = [
     ("stabilizer.estimator", 2),
 ];
 
-/// A value as the wire has it in this type; none if there is no such type here.
+/// The encoding of a value in this type; none if the type is not supported.
 pub(super) fn encode(value: f64, kind: u8) -> Option<Vec<u8>> {
     Some(match kind {
         kind::U8 => vec![value as u8],

@@ -1,4 +1,4 @@
-//! What the robot does with commands, and what its packets hold.
+//! The emulated robot's response to commands, and the content of its packets.
 
 use super::Hazards;
 use crate::BodyHandle;
@@ -10,7 +10,7 @@ use starl_create::stream::encode_frame;
 
 /// Charge of a full battery, mAh: the Create 2's.
 const CAPACITY: i32 = 2696;
-/// What the robot spends while its interface is open, mA.
+/// The current of the robot while its interface is open, mA.
 const CURRENT: i32 = -200;
 
 #[derive(Debug)]
@@ -19,11 +19,11 @@ pub(super) struct Interface {
     wheel_distance: f64,
     mode: Mode,
     hazards: Hazards,
-    /// What was asked of the wheels, left and right, millimetres per second.
+    /// The commanded speeds of the wheels, left and right, millimetres per second.
     wheels: [i16; 2],
     /// The last [`OpenInterface::Drive`].
     drive: [i16; 2],
-    /// Millimetres and degrees that packets have told of.
+    /// Millimetres and degrees that packets have reported.
     told: [i64; 2],
     stream: Vec<u8>,
     streaming: bool,
@@ -96,7 +96,7 @@ impl Interface {
         self.watch();
     }
 
-    /// What happens every 15 ms.
+    /// The step that runs every 15 ms.
     pub fn tick(&mut self, answer: &mut Vec<u8>) {
         self.watch();
         if self.streaming && self.mode != Mode::Off && !self.stream.is_empty() {
@@ -215,7 +215,7 @@ impl Interface {
         i32::from(bits)
     }
 
-    /// The whole units that packets have not told of yet.
+    /// The whole units that packets have not reported yet.
     fn untold(&mut self, which: usize, total: f64) -> i32 {
         let new = (total.trunc() as i64 - self.told[which]).clamp(-32_768, 32_767);
         self.told[which] += new;

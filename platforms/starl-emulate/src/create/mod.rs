@@ -27,7 +27,7 @@ pub fn model(generation: Generation) -> Arc<dyn Model> {
         .expect("the distance between the wheels is in its range")
 }
 
-/// What can happen to a robot besides motion. A cliff or a dropped wheel ends safe mode.
+/// Disturbances of a robot besides motion. A cliff or a dropped wheel ends safe mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hazards {
     /// The robot stands at the top of a staircase.
@@ -53,7 +53,7 @@ impl EmulatedCreate {
     /// and removed at the end, so that a fleet file can name it; one that is left from a run that was killed is replaced.
     ///
     /// # Errors
-    /// Where the system has no pseudo-terminal left, or the link cannot be made.
+    /// If the system has no pseudo-terminal left, or the link cannot be made.
     pub fn start(body: BodyHandle, link: Option<&Path>) -> io::Result<EmulatedCreate> {
         let terminal = Arc::new(Terminal::open()?);
         if let Some(link) = link {
@@ -77,7 +77,7 @@ impl EmulatedCreate {
         })
     }
 
-    /// The terminal that stands for the robot's serial line: the link if there is one.
+    /// The terminal that emulates the robot's serial line: the link if there is one.
     pub fn path(&self) -> &Path {
         self.link.as_deref().unwrap_or(self.terminal.path())
     }

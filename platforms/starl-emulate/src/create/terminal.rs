@@ -61,7 +61,7 @@ impl Terminal {
         }
     }
 
-    /// Sends bytes. Like a serial line, it loses those that nobody reads in time.
+    /// Sends bytes. Like a serial line, it loses bytes that are not read in time.
     pub fn send(&self, bytes: &[u8]) {
         if !bytes.is_empty() {
             let _ = rustix::io::write(&self.master, bytes);

@@ -1,4 +1,4 @@
-//! What the autopilot does with messages, and what it sends.
+//! The emulated autopilot's response to messages, and the messages that it sends.
 
 mod reading;
 mod telemetry;
@@ -144,7 +144,7 @@ impl Flight {
     fn enter(&mut self, mode: Mode) -> bool {
         let possible = match mode {
             Mode::Hold | Mode::Land => true,
-            // PX4 follows only who sends set-points already.
+            // PX4 follows only a client that already sends set-points.
             Mode::External => self.autopilot == Autopilot::ArduPilot || self.has_set_point(),
             Mode::TakeOff | Mode::Other(_) => false,
         };
@@ -169,7 +169,7 @@ impl Flight {
             .is_some_and(|(at, _)| at.elapsed() < patience)
     }
 
-    /// What happens all the time: failsafes, control, telemetry.
+    /// The periodic step: failsafes, control, telemetry.
     pub fn tick(&mut self) {
         if self.heard.is_some_and(|at| at.elapsed() > LINK_LOSS) && !self.stands() {
             self.mode = Mode::Land;

@@ -28,10 +28,10 @@ const WAIT: Duration = Duration::from_millis(5);
 
 impl EmulatedVehicle {
     /// Puts `body` behind `address`; port 0 takes any free port. It sends to `client`, as PX4 does to port 14540, or to
-    /// whoever sends it a heartbeat.
+    /// any client that sends it a heartbeat.
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn start(
         body: BodyHandle,
         autopilot: Autopilot,
@@ -55,7 +55,7 @@ impl EmulatedVehicle {
     /// Where it listens.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn address(&self) -> io::Result<SocketAddr> {
         self.socket.local_addr()
     }

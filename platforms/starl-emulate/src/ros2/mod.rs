@@ -98,7 +98,7 @@ impl EmulatedRos2 {
     /// Puts `body` behind the topics of a robot.
     ///
     /// # Errors
-    /// If the session is closed, or the namespace is none.
+    /// The session is closed, or the namespace is invalid.
     pub fn start(
         body: BodyHandle,
         context: &Context,

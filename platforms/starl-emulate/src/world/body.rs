@@ -65,7 +65,7 @@ impl Body {
 
         let before = self.state.pose.position;
         self.model.update(&mut self.state, predicted, impact);
-        // What is pressed stays pressed until the body moves away.
+        // A pressed bumper stays pressed until the body moves away.
         if let Some(impact) = impact {
             self.touched = Some(impact.direction);
         } else if self.state.pose.position != before {
@@ -96,7 +96,7 @@ impl BodyHandle {
         self.world.with(self.index, |body| body.state)
     }
 
-    /// What the body touches, measured from its heading. A touch lasts until the body moves away.
+    /// The contact of the body, relative to its heading. A touch lasts until the body moves away.
     pub fn bumper(&self) -> Option<Contact> {
         self.world.with(self.index, |body| {
             body.touched.map(|direction| Contact {
@@ -110,7 +110,7 @@ impl BodyHandle {
         self.world.scan(self.index, rays)
     }
 
-    /// What the wheels' encoders have counted.
+    /// The counts of the wheels' encoders.
     pub fn odometer(&self) -> Odometer {
         self.world.with(self.index, |body| body.odometer)
     }

@@ -101,7 +101,7 @@ impl World {
     /// Puts a body that stands still at `pose`.
     ///
     /// # Errors
-    /// Where the name is taken, or something is in the way.
+    /// The name is taken, or the place is occupied.
     pub fn add(
         &self,
         name: &str,
@@ -228,7 +228,7 @@ impl Floor {
     }
 }
 
-/// Steps the floor until nobody holds it any more.
+/// Steps the floor until its last user drops it.
 fn keep_time(floor: &Weak<Mutex<Floor>>) {
     let step = std::time::Duration::from_nanos(STEP.0);
     let most_late = std::time::Duration::from_nanos(CATCH_UP.0);

@@ -83,7 +83,7 @@ def main():
         stopped = emulator.pose("create")
         time.sleep(0.3)
         assert emulator.pose("create") == stopped, "173 stops the motors"
-        # It stops the robot once more as it is deleted, so while there is one.
+        # It stops the robot again as it is deleted, so while there is one.
         del robot
     print("pycreate2 drives the emulated Create")
 

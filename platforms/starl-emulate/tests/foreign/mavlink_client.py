@@ -17,7 +17,7 @@ from emulator import Emulator
 from pymavlink import mavutil
 
 mavlink = mavutil.mavlink
-# Which numbers of a set-point to ignore: all but position and yaw; all but velocity and rate of turn.
+# Which numbers of a set-point to ignore: all except position and yaw; all except velocity and rate of turn.
 POSITION = 0b100111111000
 VELOCITY = 0b010111000111
 
@@ -39,7 +39,7 @@ class Vehicle:
             time.sleep(0.5)
 
     def command(self, command, *parameters, expect=mavlink.MAV_RESULT_ACCEPTED):
-        # What has piled up while nobody read could leave no room for the acknowledgement.
+        # Unread messages could leave no room for the acknowledgement.
         while self.link.recv_match(blocking=False):
             pass
         parameters = (*parameters, *[0] * (7 - len(parameters)))
@@ -126,7 +126,7 @@ def fly(emulator, name):
     assert 0.5 < math.hypot(*way) < 1.3, way
     assert abs(math.remainder(math.atan2(way[1], way[0]) - yaw, math.tau)) < 0.1, (way, yaw)
 
-    # Nobody sends set-points any more: it stops.
+    # There are no more set-points: it stops.
     time.sleep(4.5)
     stopped = emulator.pose(name)
     time.sleep(0.5)

@@ -1,4 +1,4 @@
-//! What the members of a fleet say to each other, below the programs.
+//! Frames between the members of a fleet, below the messages of programs.
 
 use super::Refusals;
 use super::quality::Quality;
@@ -25,17 +25,17 @@ pub enum Frame {
     Status(Box<Status>),
     /// An operator stops a robot: its motors at once, then its process.
     Halt,
-    /// The answer: the motors were told to stop.
+    /// The answer: the motors received the command to stop.
     Halted,
-    /// An operator tells the program something.
+    /// An operator's order to the program.
     Order(starl_core::Order),
-    /// An operator wants to see what happens on a robot, for the next few seconds.
+    /// An operator requests the events of a robot for the next few seconds.
     Watch,
     /// The answer, several times a second.
     Seen(Box<Seen>),
 }
 
-/// What a robot tells all others periodically.
+/// The periodic message of a robot to all others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Beacon {
     /// Counts beacons, so that lost ones can be counted.
@@ -51,18 +51,18 @@ pub struct Beacon {
     pub echo: Option<(Time, Time)>,
 }
 
-/// What has happened on a robot since the last time.
+/// The events on a robot since the last such frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seen {
     /// The robot's time, by the clock of its process.
     pub now: Time,
-    /// When its process began, which tells its lives apart.
+    /// The start of its process, which distinguishes its lives.
     pub begun: Time,
     /// The number of the first event: all since the robot's start are counted, so that lost ones are noticed.
     pub first: u64,
-    /// What its program is doing: its state, if the program has one.
+    /// The state of its program, if the program has one.
     pub state: Option<String>,
-    /// What happened, and when.
+    /// The events, with their times.
     pub events: Vec<(Time, Event)>,
 }
 
@@ -75,7 +75,7 @@ pub struct Status {
     pub up: starl_core::Duration,
     /// Whether its program has reached its goal.
     pub finished: bool,
-    /// Why its program cannot go on, if so.
+    /// Why its program cannot continue, if so.
     pub failed: Option<String>,
     /// Where it believes to be; none if it does not know.
     pub pose: Option<Pose>,
@@ -85,10 +85,10 @@ pub struct Status {
     pub stopped: Option<String>,
     /// Charge of its battery, 0 to 1, if it measures that.
     pub battery: Option<f64>,
-    /// What its program is doing: its state, if the program has one.
+    /// The state of its program, if the program has one.
     pub state: Option<String>,
     /// How well it hears each other robot.
     pub links: Vec<(u32, Quality)>,
-    /// What it refused.
+    /// The packets that it has refused.
     pub refused: Refusals,
 }

@@ -8,7 +8,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::Instant;
 
-/// What happens to packets that are sent.
+/// The impairment of sent packets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Impairment {
     /// The probability that a packet is lost.
@@ -54,7 +54,7 @@ impl Impaired {
                         waiting.first_entry().filter(|entry| entry.key().0 <= now)
                     {
                         let (to, packet) = first.remove();
-                        // As with any packet, nobody hears that it is lost.
+                        // The sender does not learn of the loss, as with any packet.
                         let _ = transport.send(to, &packet);
                     }
                     let next = waiting.first_key_value().map(|((at, _), _)| *at);
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn packets_are_lost_and_late_as_often_as_they_are_to_be() {
+    fn packets_are_lost_and_late_at_the_set_rates() {
         let (sender, arrived) = mpsc::channel();
         let impairment = Impairment {
             loss: 0.25,

@@ -1,4 +1,4 @@
-//! How robots reach each other: a transport for packets, protection of what is in them, and how good it all is.
+//! The link between robots: a transport for packets, their encryption, and the quality of the link.
 
 pub mod channel;
 pub mod frame;
@@ -42,6 +42,6 @@ pub struct Arrival {
     pub at: Instant,
     /// From where.
     pub origin: Origin,
-    /// What it holds.
+    /// Its content.
     pub packet: Vec<u8>,
 }

@@ -4,7 +4,7 @@ use super::frame::Beacon;
 use serde::{Deserialize, Serialize};
 use starl_core::Time;
 
-/// What was measured of a link, from the other robot to this one.
+/// The measured quality of a link, from the other robot to this one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
     /// When the other was heard last, by this robot's clock; none if never.
@@ -15,7 +15,7 @@ pub struct Quality {
     pub round_trip: Option<f64>,
     /// How far the other's clock is ahead of this one, seconds; as exact as half of `best`.
     pub offset: Option<f64>,
-    /// The shortest time there and back of late, seconds, at which `offset` was measured.
+    /// The shortest recent round-trip time in seconds, at which `offset` was measured.
     pub best: f64,
     /// The number of the next beacon.
     expected: u32,
@@ -25,7 +25,7 @@ pub struct Quality {
 const WEIGHT: f64 = 0.05;
 
 impl Quality {
-    /// Takes in a beacon of the other that arrived at `now`.
+    /// Adds a beacon of the other robot that arrived at `now`.
     pub fn take(&mut self, now: Time, beacon: &Beacon) {
         let missed = match self.heard {
             // It has restarted, or this one is late.

@@ -7,13 +7,13 @@ use crate::link::Channel;
 use crate::link::quality::Quality;
 use crate::localise::Localiser;
 use crate::motors::Report;
-use crate::outlet::Desk;
+use crate::outlet::RuntimeOutlet;
 use crate::safety::Hazard;
 use crate::surroundings::Surroundings;
 use crate::writer::Written;
 use starl_core::sensor::Contact;
 use starl_core::{Agent, Duration, Event, Point, RobotId, Sensors, Time};
-use starl_host::{Clock, Datagram, Happening, Node, Snapshot, Workspace};
+use starl_host::{Clock, Datagram, Node, NodeInput, Snapshot, Workspace};
 use std::mem;
 
 /// How often a robot tells the others where it is.
@@ -26,10 +26,10 @@ const POSE_PERIOD: Duration = Duration::from_millis(100);
 /// judged by the records.
 const JUMP: f64 = 0.05;
 
-/// So many timers fire at once at most, so that packets are not kept waiting.
+/// The greatest number of timers that fire at once, so that packets do not wait long.
 const MOST_TIMERS: usize = 16;
 
-/// A robot that is handed what comes in, and acts through its [`Equipment`].
+/// A robot that receives inputs, and acts through its [`Equipment`].
 pub struct Core<R: Recorder, E: Equipment> {
     pub(super) setup: Setup,
     pub(super) fleet: Vec<RobotId>,
@@ -61,7 +61,7 @@ pub struct Core<R: Recorder, E: Equipment> {
     is_over: bool,
 }
 
-/// What is known of another robot.
+/// The state known of another robot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Peer {
     pub quality: Quality,
@@ -70,7 +70,7 @@ pub(super) struct Peer {
 }
 
 impl<R: Recorder, E: Equipment> Core<R, E> {
-    /// A robot that comes up at `now`, with no session with any other robot in `channel`.
+    /// A robot that starts at `now`, without sessions in `channel`.
     pub fn new(now: Time, setup: Setup, channel: Channel, equipment: E, recorder: R) -> Core<R, E> {
         let fleet: Vec<RobotId> = (0..setup.bodies.len() as u32).map(RobotId).collect();
         let mut channel = channel;
@@ -80,7 +80,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         let agent = Agent::new(setup.program.clone(), setup.random.clone());
         let agent = agent.with_saved(equipment.saved());
         let node = Node::new(setup.id, Clock::default(), agent, now)
-            // Numbers go on from those of earlier lives.
+            // Numbers continue from those of earlier lives.
             .with_sequence((now.0 / 1_000_000) as u32);
         let has_fixes = equipment.has_fixes();
         Core {
@@ -117,7 +117,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         self.is_over
     }
 
-    /// When [`Core::step`] is to be called next if nothing comes in before.
+    /// The time of the next call of [`Core::step`] if there is no input before.
     pub fn next_due(&self) -> Time {
         if let Some(end) = self.leaving {
             return end;
@@ -132,7 +132,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         node.min(self.next_location).min(self.next_beacon)
     }
 
-    /// Takes what has come in by `now`, and does all that is due, in the order that [`Node::handle`] asks for.
+    /// Handles the inputs until `now` and everything that is due, in the order that [`Node::handle`] requires.
     /// `incoming` is empty afterwards.
     pub fn step(&mut self, now: Time, incoming: &mut Vec<Incoming>) {
         // Time never goes back, so that records are in order.
@@ -140,7 +140,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         self.take_all(incoming, |incoming| matches!(incoming, Incoming::Device(_)));
         if self.is_located() && !self.node.condition().started && self.leaving.is_none() {
             self.locate();
-            self.handle(Happening::Start);
+            self.handle(NodeInput::Start);
         }
         self.take_all(incoming, |incoming| {
             matches!(incoming, Incoming::Planned(..))
@@ -156,7 +156,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             sequence, message, ..
         } in mem::take(&mut self.to_self)
         {
-            self.handle(Happening::Datagram { sequence, message });
+            self.handle(NodeInput::Datagram { sequence, message });
         }
         self.take_all(incoming, |_| true);
         match self.leaving {
@@ -168,7 +168,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         }
     }
 
-    /// Stops the motors for good; gives the recorder back.
+    /// Stops the motors permanently; gives the recorder back.
     pub fn end(mut self, now: Time) -> R {
         self.equipment.end();
         self.recorder.advance(self.now.max(now));
@@ -193,8 +193,8 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             // The software of a robot that was stopped takes part in nothing any more.
             _ if self.leaving.is_some() => {}
             Incoming::Device(report) => self.learn(report),
-            Incoming::Planned(job, path) => self.handle(Happening::Planned { job, path }),
-            Incoming::Written(Written::Done(job)) => self.handle(Happening::Stored { job }),
+            Incoming::Planned(job, path) => self.handle(NodeInput::Planned { job, path }),
+            Incoming::Written(Written::Done(job)) => self.handle(NodeInput::Stored { job }),
             Incoming::Written(Written::Failed(why)) => {
                 let text = format!("storage cannot be written, and is tried again: {why}");
                 self.recorder.notice(self.now, &text);
@@ -207,7 +207,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             if !self.is_located() || self.node.next_timeout() > self.now {
                 break;
             }
-            self.handle(Happening::Timeout);
+            self.handle(NodeInput::Timeout);
         }
         if self.next_beacon <= self.now {
             self.next_beacon = self.now + BEACON_PERIOD;
@@ -228,7 +228,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         if is_started && self.now.since(measured) > self.setup.safety.localisation {
             return;
         }
-        self.call(|node, now, _, desk| node.locate(now, estimate, desk));
+        self.call(|node, now, _, outlet| node.locate(now, estimate, outlet));
         let position = estimate.pose.position;
         if self.next_pose <= self.now || position.distance(self.recorded) > JUMP {
             self.next_pose = self.now + POSE_PERIOD;
@@ -236,7 +236,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             self.recorder.record(self.now, Event::Moved(estimate.pose));
         }
         if is_started {
-            self.handle(Happening::Located);
+            self.handle(NodeInput::Located);
         }
     }
 
@@ -288,12 +288,12 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         self.battery = reading.battery.or(self.battery);
     }
 
-    pub(super) fn handle(&mut self, happening: Happening) {
-        self.call(|node, now, snapshot, desk| node.handle(now, happening, snapshot, desk));
+    pub(super) fn handle(&mut self, happening: NodeInput) {
+        self.call(|node, now, snapshot, outlet| node.handle(now, happening, snapshot, outlet));
     }
 
     /// Calls the node, and carries out what it asks for.
-    fn call(&mut self, call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut Desk<'_>)) {
+    fn call(&mut self, call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut RuntimeOutlet<'_>)) {
         let here = self.node.estimate().pose;
         self.surroundings.sense(self.now, &here);
         let readings = self.surroundings.readings();
@@ -310,7 +310,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             way_points: &self.setup.way_points,
             obstacles: &self.setup.obstacles,
         };
-        let mut desk = Desk {
+        let mut outlet = RuntimeOutlet {
             workspace: &mut self.workspace,
             recorder: &mut self.recorder,
             surroundings: &self.surroundings,
@@ -321,14 +321,14 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             writes: Vec::new(),
             failure: None,
         };
-        call(&mut self.node, self.now, &snapshot, &mut desk);
-        let Desk {
+        call(&mut self.node, self.now, &snapshot, &mut outlet);
+        let RuntimeOutlet {
             datagrams,
             plans,
             writes,
             failure,
             ..
-        } = desk;
+        } = outlet;
         self.failure = failure.or(self.failure.take());
         // A robot that is killed must not have sent what its trace does not show.
         if !datagrams.is_empty() {

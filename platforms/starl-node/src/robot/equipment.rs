@@ -1,4 +1,4 @@
-//! What a robot's core acts through.
+//! The interfaces through which a robot's core acts.
 
 use crate::link::{Member, Origin, Transport};
 use crate::motors::Motors;
@@ -12,10 +12,10 @@ use std::sync::Arc;
 
 /// The motors, the planner, the storage and the network of a robot. No method blocks.
 pub trait Equipment {
-    /// What the robot has saved in earlier lives; none if it keeps nothing.
+    /// The data that the robot saved in earlier lives; none without storage.
     fn saved(&self) -> Option<Arc<Saved>>;
 
-    /// Whether an external system tells the robot where it is.
+    /// Whether an external system measures the robot's position.
     fn has_fixes(&self) -> bool;
 
     /// The motors follow this command until the next call.
@@ -24,13 +24,13 @@ pub trait Equipment {
     /// Nothing moves until the next [`Equipment::drive`].
     fn stop(&mut self);
 
-    /// The robot ends: nothing moves any more. Returns when the device was told.
+    /// Ends the robot and its motion. Returns when the device has got the command.
     fn end(&mut self);
 
     /// Finds a path, and hands it back as [`Incoming::Planned`](super::Incoming::Planned).
     fn find(&mut self, job: PlanJob, neighbours: Vec<Neighbour>);
 
-    /// Writes to storage, and confirms it by [`Incoming::Written`](super::Incoming::Written). Not called where
+    /// Writes to storage, and confirms it by [`Incoming::Written`](super::Incoming::Written). Not called if
     /// [`Equipment::saved`] is none.
     fn write(&mut self, job: StoreJob);
 
@@ -44,7 +44,7 @@ pub trait Equipment {
     fn learn(&mut self, member: Member, origin: Origin);
 }
 
-/// The equipment of a real robot: a thread for whatever may take long.
+/// The equipment of a real robot: a thread for each slow operation.
 pub(super) struct Attached {
     pub motors: Motors,
     pub planner: Planner,

@@ -1,8 +1,8 @@
 //! One robot in real time.
 //!
-//! [`Core`] is the robot without clock and threads: it is handed what has come in, and says when it wants to be called
-//! next. [`Robot`] is the loop around it, with the machine's clock and the threads that have the device, the planner and
-//! the storage. All that the robot's software sees comes on one thread, so that it can be recorded and repeated.
+//! [`Core`] is the robot without clock and threads: it receives inputs, and returns the time of its next call.
+//! [`Robot`] is the loop around it, with the machine's clock and the threads of the device, the planner and the
+//! storage. All inputs of the robot's software arrive on one thread, so that they can be recorded and repeated.
 
 mod core;
 mod equipment;
@@ -35,7 +35,7 @@ const LONGEST_WAIT: Duration = Duration::from_millis(20);
 /// The loop takes at most so many things at once, so that timers are not kept waiting.
 const MOST_AT_ONCE: usize = 64;
 
-/// What a robot is, and what it knows from the start.
+/// The configuration of a robot.
 pub struct Setup {
     /// Its number.
     pub id: RobotId,
@@ -45,42 +45,42 @@ pub struct Setup {
     pub program: Box<dyn Program>,
     /// The stream that its software draws from.
     pub random: Random,
-    /// What it is made of.
+    /// Its hardware.
     pub hardware: Hardware,
     /// The sensors that its program may read. A bumper is the device's; the others are measured among the places of the
     /// other robots and the known obstacles.
     pub sensors: SensorSuite,
     /// The things that a detector sees.
     pub things: Vec<Thing>,
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
     /// The obstacles that it knows.
     pub obstacles: Obstacles,
-    /// How often its software is told where it is.
+    /// The period of its position estimates.
     pub positioning_period: Duration,
     /// How exact its odometry and its positions are.
     pub accuracy: Accuracy,
-    /// Where it stands at the start, if that is known.
+    /// Its position at the start, if known.
     pub start: Option<Pose>,
     /// When its motors are stopped.
     pub safety: Safety,
 }
 
-/// What the robot is connected to.
+/// The connections of a robot.
 pub struct Connections {
     /// Its motors and sensors.
     pub device: Box<dyn Device>,
-    /// Who tells it where it is; none if it has odometry alone.
+    /// The source of its position; none if it has odometry alone.
     pub positions: Option<Box<dyn PositionSource>>,
-    /// What it keeps over a restart; none if it keeps nothing.
+    /// Its storage, which survives restarts; none if it has none.
     pub storage: Option<Storage>,
     /// The network.
     pub transport: Box<dyn Transport>,
-    /// The protection of what goes over it.
+    /// The encryption of its packets.
     pub channel: Channel,
 }
 
-/// What comes in from other threads.
+/// An input from another thread.
 #[derive(Debug)]
 pub enum Incoming {
     /// A packet.
@@ -91,11 +91,11 @@ pub enum Incoming {
     Planned(u32, Option<Path>),
     /// From the storage's thread.
     Written(Written),
-    /// The robot is to stop and to end.
+    /// The robot must stop and end.
     Halt,
 }
 
-/// Where other threads put what comes in.
+/// The sender of inputs for other threads.
 pub type Post = Sender<Incoming>;
 
 /// A new mailbox: one end for [`Robot::start`], one for other threads.
@@ -111,16 +111,17 @@ pub trait Recorder {
     /// Something was done to its software.
     fn observe(&mut self, at: Time, observed: Observed<'_>);
 
-    /// All up to now was told.
+    /// All events until now have been recorded.
     fn advance(&mut self, now: Time);
 
-    /// All that was told must outlast the process from now on: something is about to leave the robot that shows it.
+    /// Everything that was recorded must survive the process from now on: something is about to leave the robot that
+    /// shows it.
     fn commit(&mut self) {}
 
     /// The person in front of the robot should know this.
     fn notice(&mut self, at: Time, text: &str);
 
-    /// What the program is doing, in a word, if that can be said.
+    /// The state of the program in a word, if it has one.
     fn state(&self, program: &dyn Program) -> Option<String> {
         let _ = program;
         None

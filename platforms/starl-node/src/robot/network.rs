@@ -6,7 +6,7 @@ use crate::link::frame::{Beacon, Frame, Status};
 use crate::link::{Arrival, Member, OPERATORS};
 use starl_core::event::DropReason;
 use starl_core::{Destination, Duration, Event, Message, RobotId};
-use starl_host::{Datagram, Happening};
+use starl_host::{Datagram, NodeInput};
 
 /// A robot that was stopped answers for so long, since its confirmation may be lost.
 const FAREWELL: Duration = Duration::from_millis(1000);
@@ -60,7 +60,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
                     port,
                     payload,
                 };
-                self.handle(Happening::Datagram { sequence, message });
+                self.handle(NodeInput::Datagram { sequence, message });
             }
             Frame::Beacon(beacon) if from < OPERATORS => self.notice_peer(from, &beacon),
             Frame::Ask if from >= OPERATORS => {
@@ -69,7 +69,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             }
             Frame::Watch if from >= OPERATORS => self.recorder.watch(self.now, from),
             Frame::Order(order) if from >= OPERATORS => {
-                self.handle(Happening::Input(starl_core::Input::Order(order)));
+                self.handle(NodeInput::Input(starl_core::Input::Order(order)));
             }
             _ => {}
         }

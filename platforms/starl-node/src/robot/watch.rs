@@ -1,4 +1,4 @@
-//! What operators see of a robot as it happens.
+//! Live observation of a robot by operators.
 
 use super::Recorder;
 use crate::link::Member;
@@ -9,22 +9,23 @@ use starl_host::Observed;
 use std::collections::BTreeMap;
 use std::mem;
 
-/// An operator that does not ask again is told no more after this long.
+/// The time after which an operator that does not ask again receives no more.
 const INTEREST: Duration = Duration::from_millis(3000);
 
-/// Operators are told this often.
+/// How often operators receive the state.
 const PERIOD: Duration = Duration::from_millis(50);
 
 /// A packet of events is about as long, bytes: what a network carries in one piece.
 const PACKET: usize = 1200;
 
-/// So many events wait at most; later ones are only counted, so that a robot that floods its operators goes on.
+/// The greatest number of events that wait; later ones are only counted, so that a robot that floods its operators
+/// continues.
 const MOST_EVENTS: usize = 4096;
 
 /// A recorder whose events operators see too.
 pub(super) struct Watched<R> {
     pub recorder: R,
-    /// Who watches, and until when.
+    /// The watching operators, with the time until which each watches.
     watchers: BTreeMap<Member, Time>,
     fresh: Vec<(Time, Event)>,
     /// How many events there were.
@@ -46,12 +47,12 @@ impl<R: Recorder> Watched<R> {
         }
     }
 
-    /// An operator wants to be told for some time from now on.
+    /// An operator asks for reports for some time from now on.
     pub fn watch(&mut self, now: Time, operator: Member) {
         self.watchers.insert(operator, now + INTEREST);
     }
 
-    /// Who is to be told what now.
+    /// The observers to notify now, with the frames for them.
     pub fn due(&mut self, now: Time, program: &dyn Program) -> (Vec<Member>, Vec<Seen>) {
         self.watchers.retain(|_, until| *until > now);
         if self.watchers.is_empty() || now.since(self.told) < PERIOD {
@@ -163,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn an_operator_is_told_everything_in_packets_until_it_loses_interest() {
+    fn an_operator_gets_all_events_in_packets_until_it_stops_watching() {
         let mut watched = Watched::new(Nothing, Time::ZERO);
         watched.record(ms(1), Event::Finished);
         watched.watch(ms(10), 7);
@@ -185,7 +186,7 @@ mod tests {
         assert_eq!(watched.due(ms(110), &Idle).0, [7]);
         assert!(
             watched.due(ms(3011), &Idle).0.is_empty(),
-            "nobody asked again"
+            "the observer did not renew its request"
         );
     }
 }

@@ -11,7 +11,7 @@ import type { Point } from "./items.ts";
 
 /** After the last change, ms. */
 const REST = 500;
-/** So many robots are asked for their places. */
+/** The number of robots whose places are requested. */
 const MOST_ROBOTS = 60;
 
 export interface Backdrop {

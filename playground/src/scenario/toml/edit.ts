@@ -20,7 +20,7 @@ export function set(text: string, path: Path, value: Toml): string {
   return found ? splice(text, found.from, found.to, literal(value)) : insert(layout, path, literal(value));
 }
 
-/** Takes away a key, an element of an array, or a table with all that is in it. */
+/** Takes away a key, an element of an array, or a table with everything that is in it. */
 export function remove(text: string, path: Path): string {
   const layout = new Layout(text);
   const found = layout.entry(path);

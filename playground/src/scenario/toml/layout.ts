@@ -39,7 +39,7 @@ export class Layout {
   #at = 0;
   #counts = new Map<string, number>();
 
-  /** Throws if the text is no TOML; but not every such text is found. */
+  /** Throws if the text is not TOML; but not every such text is found. */
   constructor(readonly text: string) {
     for (this.#space(); this.#at < text.length; this.#space()) {
       if (text[this.#at] === "[") this.#header();

@@ -11,7 +11,7 @@ const MOST = 150;
 /** Lines and crosses of one broadcast. */
 const MOST_RECEIVERS = 60;
 
-/** How far a ring goes on the screen, px. */
+/** The radius of a ring on the screen, px. */
 const RING = 90;
 
 /** The rings that are drawn now, by sender and span of time: one that sends all the time has one ring at a time. */

@@ -72,7 +72,7 @@ export class Overlay {
     }
   }
 
-  /** An outline where a robot believes to be, if that is visibly elsewhere. */
+  /** An outline at the estimated position of a robot, if it is visibly different. */
   #beliefs({ poses, count, fleet, enlarged, palette }: Scene): void {
     const pen = this.#pen;
     let left = MOST_OUTLINES;

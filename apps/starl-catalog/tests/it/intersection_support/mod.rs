@@ -15,7 +15,7 @@ pub struct Traffic {
     pub stuck: BTreeMap<RobotId, bool>,
     /// The critical zones that each car holds by the mutex: time, car, and whether it was entered or released.
     pub locks: Vec<(Time, RobotId, Lock)>,
-    /// The properties that were violated, with what was seen.
+    /// The violated properties, with the observations.
     pub violations: Vec<String>,
     /// Which properties these are.
     pub violated: BTreeSet<String>,
@@ -92,8 +92,7 @@ impl Traffic {
             .extend(failures.map(|failure| format!("{failure:?}")));
     }
 
-    /// The cars that hold zones at each moment at which one of them comes to hold one. Two of them never hold the
-    /// same.
+    /// The cars that hold zones, at each moment at which one gets a zone. No two of them hold the same zone.
     pub fn holders(&self) -> Vec<Vec<RobotId>> {
         let mut held: BTreeMap<&str, RobotId> = BTreeMap::new();
         let mut moments = Vec::new();
@@ -128,7 +127,7 @@ impl Traffic {
         stuck.map(|(robot, _)| robot.0).collect()
     }
 
-    /// Cars in a minute, from the first that comes to the last that is through.
+    /// Cars per minute, from the first arrival to the last exit.
     pub fn per_minute(&self) -> f64 {
         let last = self.through.last().map_or(0.0, |car| car.0.seconds());
         self.through.len() as f64 * 60.0 / last

@@ -23,7 +23,7 @@ class Judge:
         for part in (task.values, task.points, {_typed(name)[0]: text for name, text in task.measures.items()}):
             for name in part:
                 if not (name.isidentifier() and name.isascii()):
-                    raise StarlError(f"`{name}` is no name for a quantity; use letters, digits and _")
+                    raise StarlError(f"`{name}` is not a name for a quantity; use letters, digits and _")
         constants = [(name, *_constant(name, value, world.robots)) for name, value in task.values.items()]
         points: list[tuple[str, str, str | None]] = [(name, "Point", None) for name in task.points]
         columns = points + [(*_typed(name), text) for name, text in task.measures.items()]

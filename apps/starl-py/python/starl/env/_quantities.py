@@ -62,7 +62,7 @@ def _part(world: World, name: str) -> Part:
             values = _quantity(world, own)
             return Part(values.shape[2], lambda out: _copy(out, values))
     raise StarlError(
-        f'observe: `{name}` is no name of a quantity, "to POINT", "POINT to POINT", "every NAME" or "to every POINT"'
+        f'observe: `{name}` is not a name of a quantity, "to POINT", "POINT to POINT", "every NAME" or "to every POINT"'
     )
 
 

@@ -13,7 +13,7 @@ const MOST_LANES: usize = 7;
 /// Height of a row without labels.
 const ROW: f64 = 58.0;
 
-/// Labels with the lanes that they are in, above their robots' lines; none where there is no room.
+/// Labels with their lanes above their robots' lines; none if there is no room.
 pub(super) type Lanes<'a> = Vec<(&'a Mark, Option<usize>)>;
 
 /// Gives each label the lowest lane in which it is clear of others.

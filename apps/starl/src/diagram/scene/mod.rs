@@ -32,7 +32,7 @@ const MARGIN: f64 = 16.0;
 const LABEL: f64 = 10.5;
 const LANE: f64 = 12.5;
 
-/// The drawing of what is to be shown of a story.
+/// The drawing of the shown part of a story.
 pub fn draw(story: &Story, extent: &Extent) -> Drawing {
     let names = story.robots.iter().map(|name| text_width(name, 12.5));
     let left = MARGIN + names.fold(0.0, f64::max) + 14.0;

@@ -1,7 +1,7 @@
 //! The laws of the simulated world, recomputed from the records of a trace: limits of motion, and the network.
 //!
-//! They hold for a run of the simulator, whatever its programs do, and need no more than the trace and the scenario in
-//! it. A law that is broken is an error of the simulator or of the trace, not of a program.
+//! They hold for every run of the simulator, whatever its programs do, and need only the trace and the scenario in it.
+//! A broken law is an error of the simulator or of the trace, not of a program.
 
 mod motion;
 mod network;

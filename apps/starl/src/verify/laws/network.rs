@@ -1,7 +1,7 @@
-//! Datagrams arrive as the network of the scenario has it.
+//! Datagrams arrive according to the network of the scenario.
 //!
-//! They arrive only where they were sent to, not twice unless a link duplicates, within radio range, and after a delay
-//! that their link can have. A link whose delay does not vary keeps their order.
+//! They arrive only at their receivers, once unless a link duplicates, within radio range, and after a possible delay
+//! of their link. A link with a constant delay keeps their order.
 
 use super::broken;
 use starl_core::event::{Event, Fault};
@@ -163,7 +163,7 @@ impl Traffic {
             .rev()
             .position(|sent| sent.sequence == sequence);
         let Some(index) = place.map(|back| sender.sent.len() - 1 - back) else {
-            let text = format!("reaches robot {to}, and was not sent, or long ago");
+            let text = format!("reaches robot {to}, and was not sent, or too long ago");
             return break_law(INTEGRITY, text);
         };
         let sent = &mut sender.sent[index];
@@ -252,7 +252,7 @@ impl Checker for Traffic {
         // Datagrams dropped in a sender's queue are recorded ahead of their time.
         if !matches!(event, Event::Dropped { .. }) {
             if *at < self.latest {
-                let text = format!("a record of {at} comes after one of {}", self.latest);
+                let text = format!("a record of {at} follows one of {}", self.latest);
                 violations.push(broken(ORDER, *at, robot.iter().copied().collect(), text));
             }
             self.latest = self.latest.max(*at);

@@ -16,7 +16,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// A server that has been told nothing.
+    /// A server that has received no message.
     pub fn new() -> Editor {
         let mut server = Command::new(env!("CARGO_BIN_EXE_starl"))
             .args(["lsp", "--stdio"])
@@ -64,7 +64,7 @@ impl Editor {
         self.send_bytes(text.as_bytes());
     }
 
-    /// Tells the server something.
+    /// Sends the server a notification.
     pub fn tell(&mut self, method: &str, params: Value) {
         self.send(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
     }

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// Two robots that need not go round anything; over within a few simulated seconds.
+/// Two robots without obstacles; the run ends within a few simulated seconds.
 pub const SMALL: &str = r#"
 program = "race"
 duration = "30s"

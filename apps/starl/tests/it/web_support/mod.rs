@@ -50,7 +50,7 @@ impl Response {
 }
 
 impl Server {
-    /// Starts the command in a folder, where it gets the page from too.
+    /// Starts the command in a folder, which also contains the page.
     pub fn start(folder: &Path, arguments: &[&str]) -> Server {
         page(folder);
         let all = [arguments, &["--no-browser", "--page", "page"]].concat();

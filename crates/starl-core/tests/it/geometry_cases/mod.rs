@@ -65,7 +65,7 @@ impl Cases {
         obstacle.with_height(HeightSpan::new(low, low + self.number(0.0, 3.0)))
     }
 
-    /// Two ends; one in three is level and one in eight of no length.
+    /// Two ends; one in three is level and one in eight has the length 0.
     pub fn segment(&mut self, reach: f64) -> (Point, Point) {
         let (a, b) = (self.point(reach), self.point(reach));
         match self.whole(0, 23) {

@@ -1,4 +1,4 @@
-//! Robots that stand for election.
+//! Robots that are candidates in an election.
 
 use starl_core::{Primitives, Program, Robot};
 use starl_primitives::LeaderElection;

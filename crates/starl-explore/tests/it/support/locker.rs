@@ -1,4 +1,4 @@
-//! Robots that each enter a critical section once, and a checker that looks at what they say of it.
+//! Robots that each enter a critical section once, and a checker of their reports.
 
 use starl_core::event::{Fault, MutexEvent, PrimitiveEvent};
 use starl_core::{Event, Primitives, Program, Record, Robot, RobotId};

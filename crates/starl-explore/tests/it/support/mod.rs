@@ -40,8 +40,8 @@ pub fn watched(setup: Setup) -> Setup {
     }
 }
 
-/// Clocks that tick once a second, so often after a warm-up of so many ticks, while datagrams arrive within
-/// the delay or not at all.
+/// Clocks that tick once a second: `warm_up` ticks in the warm-up and `ticks` after it. Datagrams arrive within the
+/// delay or not at all.
 pub fn seconds(warm_up: u16, ticks: u16, delay: Option<u8>) -> Clocks {
     Clocks::Ticking {
         tick: Duration::from_seconds(1),

@@ -1,4 +1,4 @@
-//! Robots that register, and a checker of what they come to show.
+//! Robots that register, and a checker of their lists.
 
 use starl_core::event::agreement::ListId;
 use starl_core::event::{PrimitiveEvent, RegistrationEvent};

@@ -15,7 +15,7 @@ pub struct Sharer {
 }
 
 impl Sharer {
-    /// Those robots write that it is said of.
+    /// The robots whose entry is true write.
     pub fn new(writes: &[bool], options: Options) -> Sharer {
         Sharer {
             memory: SharedMemory::new("memory", options),

@@ -15,7 +15,7 @@ pub struct Speaker {
 }
 
 impl Speaker {
-    /// Each robot broadcasts so many messages as stands at its number.
+    /// Each robot broadcasts the number of messages at its index.
     pub fn new(messages: &[u8], order: Order, options: Options) -> Speaker {
         Speaker {
             broadcast: Broadcast::in_order("speech", order, options),

@@ -5,7 +5,7 @@ use starl_primitives::Barrier;
 use starl_primitives::barrier::Options;
 use std::fmt::Write;
 
-/// Comes to the barrier at its first activation, and again when it has passed, as often as it was told.
+/// Arrives at the barrier at its first activation, and again after each pass, `meetings` times.
 #[derive(Clone, Debug, Primitives)]
 pub struct Waiter {
     barrier: Barrier,
@@ -13,7 +13,7 @@ pub struct Waiter {
 }
 
 impl Waiter {
-    /// Robots that meet so many times.
+    /// Robots that meet this number of times.
     pub fn new(meetings: u8) -> Waiter {
         Waiter {
             barrier: Barrier::new("barrier", None, Options::default()),

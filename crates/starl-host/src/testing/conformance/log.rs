@@ -50,7 +50,7 @@ impl Log {
             .count()
     }
 
-    /// All that a robot was told.
+    /// All inputs of a robot.
     pub fn told(&self, robot: RobotId) -> Vec<Told> {
         let told = self.events(robot).filter_map(|(at, event)| {
             let Event::Program { name, fields } = event else {
@@ -88,14 +88,14 @@ impl Log {
         found.collect()
     }
 
-    /// All that a robot was told, but where it is and that it is activated.
+    /// All inputs of a robot except estimates and activations.
     pub fn heard(&self, robot: RobotId) -> Vec<Told> {
         let mut told = self.told(robot);
         told.retain(|told| !told.is(Cue::Located) && !told.is(Cue::Activate));
         told
     }
 
-    /// When a robot was told this.
+    /// The times at which a robot got this input.
     pub fn times(&self, robot: RobotId, cue: Cue) -> Vec<Time> {
         let told = self.told(robot);
         told.iter()
@@ -104,7 +104,7 @@ impl Log {
             .collect()
     }
 
-    /// A robot was told this at these moments and no other.
+    /// Checks that a robot got this input at exactly these times.
     #[track_caller]
     pub fn check_times(&self, robot: RobotId, cue: Cue, wanted: &[Time]) {
         let times = self.times(robot, cue);
@@ -117,7 +117,7 @@ impl Log {
         );
     }
 
-    /// A robot was told this and nothing else, but where it is and that it is activated.
+    /// Checks that a robot got exactly these inputs, except estimates and activations.
     #[track_caller]
     pub fn check_heard(&self, robot: RobotId, wanted: &[Cue]) {
         let heard: Vec<String> = self

@@ -52,8 +52,7 @@ pub trait Host: Sized {
     /// [`DELAY`] and none is lost, and planners take a [`TICK`].
     fn start(fleet: Fleet) -> Self;
 
-    /// Time goes on until `end`. All that is due before has happened then, and nothing of what is due at
-    /// `end`.
+    /// Advances time to `end`. Everything due before `end` has happened then, and nothing due at `end`.
     fn run_before(&mut self, end: Time);
 
     /// A robot crashes now.
@@ -65,10 +64,10 @@ pub trait Host: Sized {
     /// A robot's state is overwritten now. Needs [`Need::Corruption`].
     fn corrupt(&mut self, robot: RobotId);
 
-    /// The host does nothing until `end`, and is late with all that is due before. Needs [`Need::Stalls`].
+    /// Suspends the host until `end`; everything due before is late. Needs [`Need::Stalls`].
     fn stall(&mut self, end: Time);
 
-    /// All that has happened by now.
+    /// All records so far.
     fn records(&self) -> Vec<Record>;
 
     /// How late the host may be with anything.
@@ -86,7 +85,7 @@ pub enum Need {
     Clocks,
     /// Planners find paths.
     Paths,
-    /// Time goes on by less than a [`TICK`].
+    /// Time advances in steps shorter than a [`TICK`].
     Milliseconds,
     /// States can be overwritten.
     Corruption,
@@ -221,8 +220,8 @@ macro_rules! for_each_behaviour {
         $with!(a_robot_restarts_with_a_fresh_copy);
         $with!(nothing_of_an_earlier_life_comes_later);
         $with!(no_sequence_number_is_used_twice);
-        $with!(the_next_life_goes_on_with_the_next_number);
-        $with!(a_corrupted_robot_goes_on_until_it_restarts);
+        $with!(the_next_life_continues_the_numbers);
+        $with!(a_corrupted_robot_continues_until_it_restarts);
         // Times.
         $with!(things_due_at_once_happen_in_order);
         $with!(timers_are_moved_and_cancelled);
@@ -237,10 +236,10 @@ macro_rules! for_each_behaviour {
         $with!(a_failed_program_is_not_called_again);
         $with!(a_finished_program_still_answers);
         // Storage.
-        $with!(what_was_saved_is_found_after_a_restart);
-        $with!(nothing_leaves_before_it_is_saved);
-        $with!(a_crash_undoes_a_write_and_all_that_rests_on_it);
-        $with!(one_write_takes_all_that_was_saved_during_the_one_before);
+        $with!(saved_values_are_found_after_a_restart);
+        $with!(effects_wait_for_the_write);
+        $with!(a_crash_undoes_a_write_and_its_effects);
+        $with!(writes_are_batched);
         $with!(robots_without_storage_find_nothing);
         // The network.
         $with!(datagrams_to_a_robot_that_is_down_are_dropped);

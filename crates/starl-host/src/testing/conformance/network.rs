@@ -4,7 +4,7 @@ use super::{Act, Cue, Host, Log, ONE, Outcome, Probe, ms, span, start};
 use starl_core::Event;
 use starl_core::event::DropReason;
 
-/// A datagram that comes while its receiver is down is dropped, which is on record; later ones arrive.
+/// A datagram that arrives while its receiver is down is dropped, and this is recorded; later ones arrive.
 pub fn datagrams_to_a_robot_that_is_down_are_dropped<H: Host>() -> Outcome {
     let sender = Probe::new()
         .after(span(100), [Act::Send(ONE, 1)])
@@ -32,7 +32,7 @@ pub fn datagrams_to_a_robot_that_is_down_are_dropped<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A datagram that was sent while its receiver was down reaches it if it is up when the datagram comes.
+/// A datagram that was sent while its receiver was down reaches it if it is up when the datagram arrives.
 pub fn a_datagram_may_arrive_in_a_later_life<H: Host>() -> Outcome {
     let sender = Probe::new()
         .after(span(90), [Act::Send(ONE, 1)])

@@ -17,8 +17,8 @@ pub fn a_path_answers_its_request<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A robot that has restarted does not get the path that it asked for before, though it asks for one by the
-/// same ticket.
+/// A restarted robot does not get the path that it requested before the crash, even if it requests one with the same
+/// ticket.
 pub fn a_path_for_an_earlier_life_is_ignored<H: Host>() -> Outcome {
     need::<H>(Need::Paths)?;
     let robot = Probe::new().after(span(100), [Act::Plan(7)]);
@@ -45,8 +45,8 @@ pub fn a_path_for_a_robot_that_is_down_is_ignored<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A program that cannot go on is called no more and sends nothing, though datagrams reach its robot; after a
-/// restart it runs again.
+/// A failed program is not called again and sends nothing, although datagrams reach its robot; after a restart it runs
+/// again.
 pub fn a_failed_program_is_not_called_again<H: Host>() -> Outcome {
     let sender = Probe::new().on(Cue::Activate, [Act::Send(ONE, 1)]);
     let robot = Probe::new()
@@ -85,7 +85,7 @@ pub fn a_failed_program_is_not_called_again<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A program that has reached its goal says so once, and goes on answering.
+/// A program that has reached its goal reports it once, and continues to answer.
 pub fn a_finished_program_still_answers<H: Host>() -> Outcome {
     let sender = Probe::new().after(span(350), [Act::Send(ONE, 1)]);
     let robot = Probe::new()

@@ -1,4 +1,4 @@
-//! A program that does as it is told, and reports all that it is told.
+//! A program that executes a script, and reports all its inputs.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -59,16 +59,16 @@ pub enum Act {
     Send(RobotId, u32),
     /// Ask for a path, by this ticket.
     Plan(u32),
-    /// Save a number in place of the one before.
+    /// Save a number, replacing the previous one.
     Save(u32),
     /// Say that the goal is reached.
     Finish,
-    /// Say that it cannot go on.
+    /// Say that it cannot continue.
     Fail,
 }
 
 impl Probe {
-    /// A robot that does nothing but report.
+    /// A robot that only reports.
     pub fn new() -> Probe {
         Probe::default()
     }
@@ -79,7 +79,7 @@ impl Probe {
         self
     }
 
-    /// The same robot, which also does this so long after its start. Each such moment has its timer; the
+    /// The same robot, which also performs these acts at this time after its start. Each such moment has its timer; the
     /// first is 1000.
     pub fn after(self, span: Duration, acts: impl Into<Vec<Act>>) -> Probe {
         let timer = 1000 + self.0.rules.len() as u32;

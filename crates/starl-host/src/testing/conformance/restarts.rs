@@ -4,8 +4,8 @@ use super::{Act, Cue, Host, Log, Need, ONE, Outcome, Probe, ZERO, ms, need, span
 use alloc::vec::Vec;
 use starl_core::Event;
 
-/// A robot starts at once and runs until it crashes; it restarts when it is told to, with a fresh copy of its
-/// program, and is activated from then on.
+/// A robot starts at once and runs until it crashes; it restarts on command, with a fresh copy of its program, and is
+/// activated from then on.
 pub fn a_robot_restarts_with_a_fresh_copy<H: Host>() -> Outcome {
     let mut host: H = start([Probe::new()]);
     host.run_before(ms(250));
@@ -50,7 +50,7 @@ pub fn nothing_of_an_earlier_life_comes_later<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// The numbers of a robot's datagrams grow, whatever it forgets.
+/// The sequence numbers of a robot's datagrams grow, even over crashes.
 pub fn no_sequence_number_is_used_twice<H: Host>() -> Outcome {
     let numbers = numbers_over_restarts::<H>();
     assert_eq!(numbers.len(), 22);
@@ -58,8 +58,8 @@ pub fn no_sequence_number_is_used_twice<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A robot numbers its datagrams one by one, whatever it forgets.
-pub fn the_next_life_goes_on_with_the_next_number<H: Host>() -> Outcome {
+/// A robot numbers its datagrams consecutively, even over crashes.
+pub fn the_next_life_continues_the_numbers<H: Host>() -> Outcome {
     need::<H>(Need::Count)?;
     assert!(numbers_over_restarts::<H>().into_iter().eq(0..22));
     Ok(())
@@ -85,7 +85,7 @@ fn numbers_over_restarts<H: Host>() -> Vec<u32> {
 }
 
 /// Corrupted state stays corrupted until the robot restarts, and the robot continues with it.
-pub fn a_corrupted_robot_goes_on_until_it_restarts<H: Host>() -> Outcome {
+pub fn a_corrupted_robot_continues_until_it_restarts<H: Host>() -> Outcome {
     need::<H>(Need::Corruption)?;
     let mut host: H = start([Probe::new(), Probe::new()]);
     host.run_before(ms(250));

@@ -1,4 +1,4 @@
-//! Storage that outlasts a crash.
+//! Storage that survives a crash.
 
 use super::{
     Act, Cue, DELAY, Host, Log, Need, ONE, Outcome, Probe, WRITE_TIME, ZERO, ms, need, span, start,
@@ -6,8 +6,8 @@ use super::{
 };
 use starl_core::Event;
 
-/// A robot that restarts finds the latest of what it has saved under a key.
-pub fn what_was_saved_is_found_after_a_restart<H: Host>() -> Outcome {
+/// A restarted robot finds the last value that it has saved under a key.
+pub fn saved_values_are_found_after_a_restart<H: Host>() -> Outcome {
     need::<H>(Need::Storage)?;
     let robot = Probe::new()
         .after(span(100), [Act::Save(7)])
@@ -27,9 +27,9 @@ pub fn what_was_saved_is_found_after_a_restart<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// All that an input brings about waits until what it saved is written, and so does all that comes after.
-/// Timers run from then on.
-pub fn nothing_leaves_before_it_is_saved<H: Host>() -> Outcome {
+/// All effects of an input wait until its saved values are written, and so do all later effects. Timers run from then
+/// on.
+pub fn effects_wait_for_the_write<H: Host>() -> Outcome {
     need::<H>(Need::Storage)?;
     let robot = Probe::new()
         .after(
@@ -60,8 +60,8 @@ pub fn nothing_leaves_before_it_is_saved<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A crash before the end of a write: it is as if the inputs since had never come.
-pub fn a_crash_undoes_a_write_and_all_that_rests_on_it<H: Host>() -> Outcome {
+/// A crash before the end of a write undoes the inputs since.
+pub fn a_crash_undoes_a_write_and_its_effects<H: Host>() -> Outcome {
     need::<H>(Need::Storage)?;
     let robot = Probe::new()
         .after(span(110), [Act::Save(7)])
@@ -86,8 +86,8 @@ pub fn a_crash_undoes_a_write_and_all_that_rests_on_it<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// While a write is under way, all that is saved waits for the next one, which takes as long.
-pub fn one_write_takes_all_that_was_saved_during_the_one_before<H: Host>() -> Outcome {
+/// Values saved during a write wait for the next one, which takes as long.
+pub fn writes_are_batched<H: Host>() -> Outcome {
     need::<H>(Need::Storage)?;
     let robot = Probe::new()
         .after(span(110), [Act::Save(1), Act::Send(ONE, 1)])
@@ -108,7 +108,7 @@ pub fn one_write_takes_all_that_was_saved_during_the_one_before<H: Host>() -> Ou
     Ok(())
 }
 
-/// Where there is no storage, saving takes no time and leaves nothing.
+/// Without storage, saving takes no time and has no effect.
 pub fn robots_without_storage_find_nothing<H: Host>() -> Outcome {
     let robot = Probe::new().after(span(110), [Act::Save(7), Act::Send(ONE, 1)]);
     let mut host: H = start([robot, Probe::new()]);

@@ -10,8 +10,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use starl_core::Duration;
 
-/// Of what is due at one moment a start comes first, then a path, where the robot is, datagrams, timers,
-/// and the activation.
+/// Inputs due at one moment happen in this order: start, path, estimate, datagrams, timers, activation.
 pub fn things_due_at_once_happen_in_order<H: Host>() -> Outcome {
     need::<H>(Need::Order)?;
     need::<H>(Need::Paths)?;
@@ -39,7 +38,7 @@ pub fn things_due_at_once_happen_in_order<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// Arming a timer that is armed moves it; a timer that is cancelled does not fire; one that has fired is gone.
+/// Arming a timer that is armed moves it; a timer that is cancelled does not fire; one that has fired is removed.
 pub fn timers_are_moved_and_cancelled<H: Host>() -> Outcome {
     let arm = |timer, millis| Act::Arm(timer, span(millis));
     let robot = Probe::new()
@@ -72,7 +71,7 @@ pub fn timers_are_moved_and_cancelled<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// The order in which timers were armed makes no difference.
+/// The order in which timers were armed does not matter.
 pub fn timers_due_at_once_fire_in_the_order_of_their_keys<H: Host>() -> Outcome {
     need::<H>(Need::Order)?;
     let timers = [3, 1, 4, 2].map(|timer| Act::Arm(timer, span(130)));
@@ -83,7 +82,7 @@ pub fn timers_due_at_once_fire_in_the_order_of_their_keys<H: Host>() -> Outcome 
     Ok(())
 }
 
-/// A timer that is to fire at once does so after a millisecond, so that time goes on whatever a program does.
+/// A timer with zero delay fires after a millisecond, so that no program can stop time.
 pub fn the_shortest_timer_takes_a_millisecond<H: Host>() -> Outcome {
     need::<H>(Need::Milliseconds)?;
     let arm = |timer| [Act::Arm(timer, Duration::ZERO)];
@@ -100,8 +99,8 @@ pub fn the_shortest_timer_takes_a_millisecond<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A robot knows its own clock alone, which is ahead and runs at another rate: that is the time it is told, and
-/// timers are in it. Activations go by the host's.
+/// A robot knows only its own clock, which has an offset and another rate. Its inputs and timers use that clock;
+/// activations use the host's.
 pub fn clocks_run_wrong<H: Host>() -> Outcome {
     need::<H>(Need::Clocks)?;
     let robot = Probe::new().on(Cue::Start, [Act::Arm(1, span(10_000))]);
@@ -141,7 +140,7 @@ pub fn clocks_run_wrong<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A host that is late hands on all timers, and one activation for those that it missed.
+/// A host that is late passes on all timers, and one activation for those that it missed.
 pub fn a_late_host_activates_once<H: Host>() -> Outcome {
     need::<H>(Need::Stalls)?;
     let robot = Probe::new().on(Cue::Start, [Act::Arm(1, span(260)), Act::Arm(2, span(410))]);

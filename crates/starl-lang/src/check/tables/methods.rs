@@ -22,7 +22,7 @@ macro_rules! methods {
                 }
             }
 
-            /// Whether it changes what it is called on.
+            /// Whether it changes its receiver.
             #[must_use]
             pub const fn changes(self) -> bool {
                 match self {
@@ -30,7 +30,7 @@ macro_rules! methods {
                 }
             }
 
-            /// What it does, as one tells a person.
+            /// The documentation shown to users.
             #[must_use]
             pub const fn documentation(self) -> &'static str {
                 match self {
@@ -42,35 +42,35 @@ macro_rules! methods {
 }
 
 methods! {
-    ListSize = "List[T].size() -> Int" false "How many elements there are."
+    ListSize = "List[T].size() -> Int" false "The number of elements."
     ListAdd = "List[T].add(element: T)" true "Adds an element at the end."
-    ListInsert = "List[T].insert(index: Int, element: T)" true "Inserts an element before the one at the index; outside of the list it is a run-time error."
-    ListRemoveAt = "List[T].remove_at(index: Int)" true "Removes the element at the index; outside of the list it is a run-time error."
-    ListRemove = "List[T].remove(element: T)" true "Removes the first element that is equal, if there is one."
-    ListContains = "List[T].contains(element: T) -> Bool" false "Whether an element is equal."
-    ListFirst = "List[T].first() -> T?" false "The first element; none of an empty list."
-    ListLast = "List[T].last() -> T?" false "The last element; none of an empty list."
-    ListIndexOf = "List[T].index_of(element: T) -> Int?" false "The index of the first element that is equal."
+    ListInsert = "List[T].insert(index: Int, element: T)" true "Inserts an element before the one at the index; a run-time error if the index is out of range."
+    ListRemoveAt = "List[T].remove_at(index: Int)" true "Removes the element at the index; a run-time error if the index is out of range."
+    ListRemove = "List[T].remove(element: T)" true "Removes the first equal element, if any."
+    ListContains = "List[T].contains(element: T) -> Bool" false "Whether the list has an equal element."
+    ListFirst = "List[T].first() -> T?" false "The first element; none for an empty list."
+    ListLast = "List[T].last() -> T?" false "The last element; none for an empty list."
+    ListIndexOf = "List[T].index_of(element: T) -> Int?" false "The index of the first equal element; none if there is none."
     ListReversed = "List[T].reversed() -> List[T]" false "The elements in reverse order."
-    ListSorted = "List[O].sorted() -> List[O]" false "The elements in rising order."
-    ListSlice = "List[T].slice(start: Int, end: Int) -> List[T]" false "The elements from `start` to before `end`; outside of the list it is a run-time error."
+    ListSorted = "List[O].sorted() -> List[O]" false "The elements in ascending order."
+    ListSlice = "List[T].slice(start: Int, end: Int) -> List[T]" false "The elements from `start` to before `end`; a run-time error if they are out of range."
     ListSum = "List[N].sum() -> N" false "The sum of the elements."
-    SetSize = "Set[T].size() -> Int" false "How many elements there are."
-    SetAdd = "Set[T].add(element: T)" true "Adds an element if it is not there."
-    SetRemove = "Set[T].remove(element: T)" true "Removes an element if it is there."
-    SetContains = "Set[T].contains(element: T) -> Bool" false "Whether the element is there."
-    SetUnion = "Set[T].union(other: Set[T]) -> Set[T]" false "What is in one of the two."
-    SetIntersection = "Set[T].intersection(other: Set[T]) -> Set[T]" false "What is in both."
-    SetDifference = "Set[T].difference(other: Set[T]) -> Set[T]" false "What is not in the other."
-    SetMin = "Set[T].min() -> T?" false "The least element; none of an empty set."
-    SetMax = "Set[T].max() -> T?" false "The greatest element; none of an empty set."
-    MapSize = "Map[K, V].size() -> Int" false "How many keys there are."
-    MapGet = "Map[K, V].get(key: K) -> V?" false "The value of the key, if it is there."
+    SetSize = "Set[T].size() -> Int" false "The number of elements."
+    SetAdd = "Set[T].add(element: T)" true "Adds an element if it is missing."
+    SetRemove = "Set[T].remove(element: T)" true "Removes an element if it is present."
+    SetContains = "Set[T].contains(element: T) -> Bool" false "Whether the element is present."
+    SetUnion = "Set[T].union(other: Set[T]) -> Set[T]" false "The elements of either set."
+    SetIntersection = "Set[T].intersection(other: Set[T]) -> Set[T]" false "The elements of both sets."
+    SetDifference = "Set[T].difference(other: Set[T]) -> Set[T]" false "The elements that are not in the other set."
+    SetMin = "Set[T].min() -> T?" false "The smallest element; none for an empty set."
+    SetMax = "Set[T].max() -> T?" false "The greatest element; none for an empty set."
+    MapSize = "Map[K, V].size() -> Int" false "The number of keys."
+    MapGet = "Map[K, V].get(key: K) -> V?" false "The value of the key; none if it is missing."
     MapKeys = "Map[K, V].keys() -> Set[K]" false "The keys."
     MapValues = "Map[K, V].values() -> List[V]" false "The values, in the order of the keys."
-    MapRemove = "Map[K, V].remove(key: K)" true "Removes the key and its value if they are there."
-    MapContains = "Map[K, V].contains(key: K) -> Bool" false "Whether the key is there."
-    StringSize = "String.size() -> Int" false "How many characters there are."
+    MapRemove = "Map[K, V].remove(key: K)" true "Removes the key and its value if present."
+    MapContains = "Map[K, V].contains(key: K) -> Bool" false "Whether the key is present."
+    StringSize = "String.size() -> Int" false "The number of characters."
     StringContains = "String.contains(part: String) -> Bool" false "Whether the part occurs."
     StringSplit = "String.split(separator: String) -> List[String]" false "The parts between separators."
     AreaContains = "Area.contains(point: Point) -> Bool" false "Whether the point is in the area or on its boundary."
@@ -92,7 +92,7 @@ impl Method {
         &text[..text.find(['[', '.']).unwrap_or(0)]
     }
 
-    /// The methods of a type, by the type's name without what it holds.
+    /// The methods of a type, by the type's name without type arguments.
     pub fn of(receiver: &str) -> impl Iterator<Item = Self> {
         (METHODS.iter().copied()).filter(move |method| method.receiver_name() == receiver)
     }

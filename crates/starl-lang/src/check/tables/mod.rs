@@ -1,8 +1,7 @@
-//! What every program may use without declaring it, as tables: primitives, built-in functions and
-//! names, and the methods of built-in types.
+//! Tables of the built-in vocabulary: primitives, functions, names, and the methods of built-in types.
 //!
-//! Each entry is one line of text in the language's own notation (see [`Signature`]), so that the
-//! tables are the reference too: what editors show and documentation lists.
+//! Each entry is one line in the language's own notation (see [`Signature`]). Editors and the reference pages show
+//! these lines.
 
 mod builtins;
 mod methods;
@@ -14,7 +13,7 @@ pub use methods::{METHODS, Method};
 pub use primitives::{Event, Member, PRIMITIVES, Primitive};
 pub use signature::{Parameter, Shape, Signature};
 
-/// What using something does to the world, and so where it may stand.
+/// The effect of a use on the world, which decides where the use is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Purity {
     /// It depends on its arguments only: it may stand anywhere.
@@ -23,6 +22,6 @@ pub enum Purity {
     Query,
     /// It does something: only in `init`, effects and handlers.
     Effect,
-    /// It is known to whoever watches the run, and to no robot: only in properties.
+    /// Known only to an observer of the run, not to robots: allowed only in properties.
     Property,
 }

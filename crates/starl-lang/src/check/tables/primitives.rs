@@ -1,7 +1,7 @@
-//! Primitives (thesis, chapter 3): how they are bound, asked and told, and what they report.
+//! Primitives (thesis, chapter 3): their constructors, flags, methods and events.
 //!
-//! A primitive is one entry here and its implementation at the host; the checker and the compiler know
-//! no primitive by name. The compiler calls a member as `Primitive.member` with the instance's number.
+//! A primitive is one entry here and its implementation at the host; the checker and the compiler do not refer to
+//! primitives by name. The compiler calls a member as `Primitive.member` with the instance's number.
 
 use super::Purity::{self, Effect, Query};
 use super::Signature;
@@ -13,9 +13,9 @@ pub struct Primitive {
     pub constructor: &'static str,
     /// Its methods and status flags.
     pub members: &'static [Member],
-    /// What it reports by itself, for handlers.
+    /// The events that it reports to handlers.
     pub events: &'static [Event],
-    /// What it is, as one tells a person.
+    /// The documentation shown to users.
     pub documentation: &'static str,
 }
 
@@ -24,18 +24,18 @@ pub struct Primitive {
 pub struct Member {
     /// Its signature.
     pub text: &'static str,
-    /// Whether it does something or only tells.
+    /// Whether it has an effect or is a query.
     pub purity: Purity,
-    /// What it does, as one tells a person.
+    /// The documentation shown to users.
     pub documentation: &'static str,
 }
 
 /// Something that a primitive reports.
 #[derive(Debug, PartialEq)]
 pub struct Event {
-    /// Its name and what it carries.
+    /// Its name and fields.
     pub text: &'static str,
-    /// When it comes, as one tells a person.
+    /// The documentation shown to users.
     pub documentation: &'static str,
 }
 
@@ -60,19 +60,19 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "reach_avoid(target: Point, unsafe: Obstacles)",
                 Effect,
-                "Goes to the target and keeps out of the unsafe set.",
+                "Drives to the target and keeps out of the unsafe set.",
             ),
             member(
                 "follow(points: List[Point], unsafe: Obstacles)",
                 Effect,
-                "Goes to the last point by way of the others and keeps out of the unsafe set; does not stop in between, nor before it sets out.",
+                "Drives through the points to the last one and keeps out of the unsafe set; it does not stop before or between.",
             ),
-            member("stop()", Effect, "Stops and stays; all flags become false."),
-            member("active: Bool", Query, "Whether a command is under way."),
+            member("stop()", Effect, "Stops the robot; all flags become false."),
+            member("active: Bool", Query, "Whether a command is in progress."),
             member(
                 "target: Point?",
                 Query,
-                "Where the command under way leads, as it was given.",
+                "The target of the command in progress, as given.",
             ),
             member(
                 "done: Bool",
@@ -82,16 +82,16 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "failed: Bool",
                 Query,
-                "Whether the robot entered the unsafe set, or the wind is stronger than it can hold against.",
+                "Whether the robot has entered the unsafe set, or the wind is too strong for it.",
             ),
             member(
                 "reason: MotionTrouble?",
                 Query,
-                "Why the last command failed or was given up.",
+                "The reason why the last command failed or was given up.",
             ),
         ],
         events: &[],
-        documentation: "Goes to targets, around unsafe sets (thesis, section 3.2).",
+        documentation: "Drives to targets, around unsafe sets (thesis, section 3.2).",
     },
     Primitive {
         constructor: "Broadcast(name?: String, order?: Order)",
@@ -99,35 +99,35 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "broadcast(message: Message) -> Int",
                 Effect,
-                "Sends a message to every other robot, in total order to this one too; gives the message's number.",
+                "Sends a message to every other robot, and in total order to this one; returns the message's number.",
             ),
             member(
                 "outstanding(number: Int) -> Bool",
                 Query,
-                "Whether some robot has neither acknowledged the message nor been given up; in total order, whether it has no place yet.",
+                "Whether the message still waits for the acknowledgement of some robot; in total order, for its position.",
             ),
             member(
                 "backlog: Int",
                 Query,
-                "How many messages are outstanding; of more than 4096 the oldest fails.",
+                "The number of outstanding messages; with more than 4096, the oldest fails.",
             ),
             member(
                 "failed: Bool",
                 Query,
-                "Whether nothing can be ordered at present: in total order, without a majority of the fleet in reach.",
+                "In total order, whether no message can be ordered now, because no majority of the fleet is reachable.",
             ),
         ],
         events: &[
             Event {
                 text: "failed(number: Int, unreached: List[RobotId])",
-                documentation: "Some robots did not acknowledge the message with this number; in total order, it has waited too long for its place.",
+                documentation: "Some robots did not acknowledge the message with this number; in total order, it has waited too long for its position.",
             },
             Event {
                 text: "gap(from: RobotId?)",
-                documentation: "Messages that others may have received, of this robot if it is known, will not reach this one.",
+                documentation: "This robot has missed messages that others may have received; `from` is their sender, if known.",
             },
         ],
-        documentation: "Messages to all other robots, in any order or in a certain one (thesis, section 3.3.1).",
+        documentation: "Messages to all other robots, unordered or in an order (thesis, section 3.3.1).",
     },
     Primitive {
         constructor: "Geocast(name?: String)",
@@ -135,17 +135,17 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "geocast(message: Message, area: Area) -> Int",
                 Effect,
-                "Sends a message to the robots in an area; gives the message's number.",
+                "Sends a message to the robots in an area; returns the message's number.",
             ),
             member(
                 "outstanding(number: Int) -> Bool",
                 Query,
-                "Whether some robot has neither acknowledged the message nor been given up.",
+                "Whether the message still waits for the acknowledgement of some robot.",
             ),
             member(
                 "backlog: Int",
                 Query,
-                "How many messages are outstanding; of more than 4096 the oldest fails.",
+                "The number of outstanding messages; with more than 4096, the oldest fails.",
             ),
         ],
         events: FAILED,
@@ -157,17 +157,17 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "send(to: RobotId, message: Message) -> Int",
                 Effect,
-                "Sends a message to one robot; gives the message's number.",
+                "Sends a message to one robot; returns the message's number.",
             ),
             member(
                 "outstanding(number: Int) -> Bool",
                 Query,
-                "Whether the message has neither been acknowledged nor given up.",
+                "Whether the message still waits for its acknowledgement.",
             ),
             member(
                 "backlog: Int",
                 Query,
-                "How many messages are outstanding; of more than 4096 the oldest fails.",
+                "The number of outstanding messages; with more than 4096, the oldest fails.",
             ),
         ],
         events: FAILED,
@@ -178,10 +178,10 @@ pub const PRIMITIVES: &[Primitive] = &[
         members: &[member(
             "broadcast(message: Message)",
             Effect,
-            "Sends a message to all robots in reach of the radio, once: it may be lost.",
+            "Sends a message once to all robots in radio range; it may be lost.",
         )],
         events: &[],
-        documentation: "Messages to all robots in reach of the radio, without acknowledgement.",
+        documentation: "Messages to all robots in radio range, without acknowledgement.",
     },
     Primitive {
         constructor: "FailureDetector()",
@@ -189,25 +189,25 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "suspects: Set[RobotId]",
                 Query,
-                "The robots that are believed to have failed; it may be wrong.",
+                "The robots that are suspected to have failed; a suspicion may be wrong.",
             ),
             member(
                 "live: Set[RobotId]",
                 Query,
-                "All other robots of the fleet, and this one.",
+                "The robots of the fleet that are not suspected, including this one.",
             ),
         ],
         events: &[
             Event {
                 text: "suspected(robot: RobotId)",
-                documentation: "A robot is believed to have failed.",
+                documentation: "A robot is suspected to have failed.",
             },
             Event {
                 text: "trusted(robot: RobotId)",
-                documentation: "It is heard again.",
+                documentation: "A suspected robot is heard again.",
             },
         ],
-        documentation: "Notices which robots have failed, by their heartbeats.",
+        documentation: "Detects failed robots by their heartbeats.",
     },
     Primitive {
         constructor: "Mutex(id: String, participants?: Set[RobotId], algorithm?: MutexAlgorithm, lease?: Duration, repeat?: Duration)",
@@ -215,32 +215,32 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "acquire(resources: Set[String], participants?: Set[RobotId])",
                 Effect,
-                "Asks for all resources at once (the thesis's do_mutex).",
+                "Requests all resources at once (the thesis's do_mutex).",
             ),
             member(
                 "release(resources?: Set[String])",
                 Effect,
-                "Gives back these resources, or all; those that are still waited for are no longer asked for.",
+                "Releases these resources, or all, and withdraws requests for them.",
             ),
             member(
                 "held(resources: Set[String]) -> Bool",
                 Query,
-                "Whether this robot alone holds them (the thesis's crit).",
+                "Whether this robot holds them, exclusively (the thesis's crit).",
             ),
             member(
                 "waiting: Bool",
                 Query,
-                "Whether resources are asked for and not held yet.",
+                "Whether a request is waiting for its resources.",
             ),
             member(
                 "fencing: Int?",
                 Query,
-                "With leases, the number of what is held: greater than those of all who held any of it before.",
+                "With leases, the fencing number: greater than the number of every earlier holder of any of these resources.",
             ),
             member(
                 "failed: Bool",
                 Query,
-                "Whether somebody who is waited for is believed to have failed.",
+                "Whether a robot that this one waits for is suspected to have failed.",
             ),
         ],
         events: &[],
@@ -252,7 +252,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "register(area?: Area)",
                 Effect,
-                "Joins those in the area, or the whole fleet (the thesis's do_register).",
+                "Registers with the robots in the area, or with the whole fleet (the thesis's do_register).",
             ),
             member(
                 "unregister()",
@@ -262,21 +262,21 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "members: Set[RobotId]?",
                 Query,
-                "Those who agreed on taking part (the thesis's rList); none while that is open.",
+                "The robots that take part (the thesis's rList); none until they have agreed.",
             ),
             member(
                 "agreed_at: Time?",
                 Query,
-                "When that list was computed, the same for all in it (the thesis's ts).",
+                "The time at which the list was computed, the same on all its members (the thesis's ts).",
             ),
             member(
                 "failed: Bool",
                 Query,
-                "Whether there has been no agreement for long; it is still tried.",
+                "Whether the agreement takes too long; it continues nevertheless.",
             ),
         ],
         events: &[],
-        documentation: "Agreement on who takes part (thesis, section 3.4.1).",
+        documentation: "Agreement on the participants (thesis, section 3.4.1).",
     },
     Primitive {
         constructor: "LeaderElection(id: String, participants?: Set[RobotId], algorithm?: ElectionAlgorithm)",
@@ -284,37 +284,37 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "elect()",
                 Effect,
-                "Stands for election from now on, and has one if there is none (the thesis's do_election).",
+                "Becomes a candidate, and starts an election if there is none (the thesis's do_election).",
             ),
             member(
                 "resign()",
                 Effect,
-                "No longer stands; a leader that resigns is replaced.",
+                "Stops being a candidate; a leader that resigns is replaced.",
             ),
             member(
                 "leader: RobotId?",
                 Query,
-                "Who leads; none while that is open and if the election failed.",
+                "The leader; none until the election ends, and if it failed.",
             ),
             member(
                 "epoch: Int?",
                 Query,
-                "The number of its leadership, greater than those before; with `leases` only.",
+                "The number of the leader's term, greater than those before; with `leases` only.",
             ),
             member(
                 "failed: Bool",
                 Query,
-                "Whether the election takes too long; it goes on all the same.",
+                "Whether the election takes too long; it continues nevertheless.",
             ),
         ],
         events: &[
             Event {
                 text: "elected(leader: RobotId)",
-                documentation: "This robot leads from now on, or in a new epoch.",
+                documentation: "The robot `leader` leads from now on, or has a new epoch.",
             },
             Event {
                 text: "lost(leader: RobotId)",
-                documentation: "This robot led, and nobody does now.",
+                documentation: "The robot `leader` no longer leads, and there is no leader now.",
             },
         ],
         documentation: "Election of one robot (thesis, section 3.4.2).",
@@ -325,24 +325,24 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "arrive()",
                 Effect,
-                "Says that this robot has come to the barrier.",
+                "Declares that this robot has arrived at the barrier.",
             ),
             member(
                 "passed: Bool",
                 Query,
-                "Whether all have come since this robot did.",
+                "Whether all robots have arrived since this robot did.",
             ),
-            member("failed: Bool", Query, "Whether some robot cannot come."),
+            member("failed: Bool", Query, "Whether some robot cannot arrive."),
         ],
         events: &[],
-        documentation: "Waits until all robots have come to the same point.",
+        documentation: "Lets robots wait for each other at a point of the program.",
     },
     Primitive {
         constructor: "Policy(model: Model)",
         members: &[member(
             "evaluate(input: List[Float]) -> List[Float]",
             Query,
-            "What the network gives for these numbers, in 32-bit arithmetic; another number of them than the network takes is a run-time error.",
+            "The output of the network for these numbers, in 32-bit arithmetic; a run-time error if their number is not that of the network's inputs.",
         )],
         events: &[],
         documentation: "A trained network, from an ONNX file beside the program.",

@@ -1,10 +1,10 @@
 //! Signatures as text: `distance(a: Point, b: Point) -> Float`.
 //!
-//! `name(parameters) -> result` is called, `name: type` is used by its name alone. A parameter written
-//! `name?: type` may be left out. `...` as the last parameter stands for any number of values, `name =
-//! ...` for any number of named ones. A capital letter is any type, the same throughout: `T` any at
-//! all, `N` Int or Float, `M` also Duration and Time, `O` whatever `<` compares. `Message` is any
-//! message, `Model` a text that is written there and names a model's file, `Any` any value. `List[T].add(x: T)` is a method of lists.
+//! `name(parameters) -> result` is called, `name: type` is used by its name alone. A parameter written `name?: type`
+//! may be omitted. `...` as the last parameter means any number of values, `name = ...` for any number of named ones. A
+//! capital letter is any type, the same throughout: `T` any at all, `N` Int or Float, `M` also Duration and Time, `O`
+//! whatever `<` compares. `Message` is any message, `Model` a literal text with the path of a model's file, `Any` any
+//! value. `List[T].add(x: T)` is a method of lists.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 /// A signature that was read from its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
-    /// What it is a method of, if it is one.
+    /// The receiver's type, for a method.
     pub receiver: Option<Shape>,
     /// Its name.
     pub name: &'static str,
@@ -24,7 +24,7 @@ pub struct Signature {
     pub takes_values: bool,
     /// Whether any number of named values may follow.
     pub takes_fields: bool,
-    /// What it gives.
+    /// The type of the result.
     pub result: Shape,
 }
 
@@ -39,7 +39,7 @@ pub struct Parameter {
     pub is_optional: bool,
 }
 
-/// A type in a signature, which may stand for many.
+/// A type in a signature, which may contain letters for other types.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// No value.
@@ -68,7 +68,7 @@ impl Signature {
     /// Reads a signature of the tables.
     ///
     /// # Panics
-    /// If the text is no signature.
+    /// The text is not a signature.
     #[must_use]
     pub fn read(text: &'static str) -> Self {
         let mut reader = Reader { text, at: 0 };
@@ -100,11 +100,11 @@ impl Signature {
         if reader.eat(if signature.is_call { "->" } else { ":" }) {
             signature.result = reader.shape();
         }
-        assert!(reader.rest().is_empty(), "a signature goes on: {text}");
+        assert!(reader.rest().is_empty(), "text after a signature: {text}");
         signature
     }
 
-    /// The name in the text of a signature of something that is no method.
+    /// The name in a signature without a receiver.
     #[must_use]
     pub fn name_of(text: &'static str) -> &'static str {
         let end = text.find(['(', ':']).unwrap_or(text.len());

@@ -42,7 +42,7 @@ pub(in crate::compile) fn state_operand(object: u32) -> Option<u8> {
 }
 
 impl<'p> Body<'_, 'p> {
-    /// Where the value is, if it is anywhere. What `!` asks for is required to be there.
+    /// The location of the value, if it is stored. The operand of `!` must be there.
     pub fn locate(&mut self, expression: &'p Expression) -> Compiled<Option<Location>> {
         Ok(match &expression.kind {
             ExpressionKind::Local(local) => Some(Location::Registers(self.local(*local)?)),

@@ -2,7 +2,7 @@
 //!
 //! Registers are taken and given back like a stack. A local keeps its registers from where it is
 //! declared to the end of its block; what is needed for a moment lies above. A call's window begins
-//! above all that is in use.
+//! above everything that is in use.
 //!
 //! Invariant: what lies at or above the top of the stack holds nothing that is still needed.
 
@@ -39,9 +39,9 @@ pub(in crate::compile) struct Body<'u, 'p> {
     top: Size,
     /// The most registers that were in use.
     most: Size,
-    /// The file of what is compiled.
+    /// The file of the compiled code.
     pub file: u32,
-    /// The place of what is compiled.
+    /// The position of the compiled code.
     pub span: Span,
 }
 
@@ -95,7 +95,7 @@ impl<'u, 'p> Body<'u, 'p> {
         });
     }
 
-    /// Compiles something that stands at a place.
+    /// Compiles code with a position in the source.
     pub fn at<T>(&mut self, span: Span, compile: impl FnOnce(&mut Self) -> T) -> T {
         let outer = core::mem::replace(&mut self.span, span);
         let result = compile(self);
@@ -103,12 +103,12 @@ impl<'u, 'p> Body<'u, 'p> {
         result
     }
 
-    /// What is in use now, to be given to [`Body::release`].
+    /// The registers in use now, to be passed to [`Body::release`].
     pub fn mark(&self) -> Size {
         self.top
     }
 
-    /// Frees what was taken since the mark.
+    /// Frees the registers taken since the mark.
     pub fn release(&mut self, mark: Size) {
         self.top = mark;
     }
@@ -121,7 +121,7 @@ impl<'u, 'p> Body<'u, 'p> {
         };
         let top = self.top.plus(size);
         if top.scalars > REGISTERS.scalars || top.objects > REGISTERS.objects {
-            let message = "there are too many values at a time here";
+            let message = "too many values are in use here";
             let code = diagnostic::Code::TooManyRegisters;
             let problem = Problem::new(code, self.file, self.span, message);
             return Err(problem.note(
@@ -206,7 +206,7 @@ impl<'u, 'p> Body<'u, 'p> {
         self.bound(local).ok_or_else(|| self.broken())
     }
 
-    /// The problem that the checked program is not what it is said to be.
+    /// The problem that the checked program violates an invariant of the checker.
     pub fn broken(&self) -> alloc::boxed::Box<Problem> {
         let message = "this cannot be compiled";
         let problem = Problem::new(diagnostic::Code::TooMuch, self.file, self.span, message);

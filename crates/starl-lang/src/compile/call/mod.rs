@@ -21,7 +21,7 @@ use crate::machine::operand::FunctionIndex;
 struct Window {
     /// Its first registers.
     base: Slot,
-    /// What was in use before.
+    /// The registers in use before.
     mark: Size,
 }
 

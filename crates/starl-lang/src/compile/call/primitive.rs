@@ -71,7 +71,7 @@ impl<'p> Body<'_, 'p> {
         arguments.collect()
     }
 
-    /// The type that a shape of the tables stands for.
+    /// The type of a shape of the tables.
     pub fn shape(&self, shape: &Shape) -> Option<Type> {
         let boxed = |part: &Shape| self.shape(part).map(Box::new);
         Some(match shape {

@@ -111,7 +111,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// Tells the host the value of a shared variable, by one of its members.
+    /// Passes the value of a shared variable to the host, by one of its members.
     pub fn write_shared(&mut self, id: SharedId, member: &str, value: &'p Expression) -> Compiled {
         let import = self.shared_function(id, member, false);
         let arguments = [self.shared_instance(id), Argument::Value(value)];
@@ -119,7 +119,7 @@ impl<'p> Body<'_, 'p> {
         self.host(import, &arguments, &Type::Nothing, nowhere, false)
     }
 
-    /// Tells the host the value of a shared variable that was changed in registers.
+    /// Passes the value of a shared variable that was changed in registers to the host.
     pub fn write_back_shared(&mut self, id: SharedId, value: Slot) -> Compiled {
         let ty = &self.unit.program[id].ty;
         let import = self.shared_function(id, "write", false);

@@ -22,7 +22,7 @@ impl<'p> Body<'_, 'p> {
         };
         let ty = &self.declared[local.index()].ty;
         let size = self.size(ty);
-        // A local that has its place already is one of those that a guard hands to its effect.
+        // A local that already has its place is passed from a guard to its effect.
         let reserved = self.bound(local);
         if is_located(value) {
             let slot = match reserved {

@@ -11,7 +11,7 @@ use crate::ir::{Expression, Operator, Type};
 use crate::machine::operand::{In, Out, Short, Target};
 use crate::machine::{Instruction, operand};
 
-/// What order says: the left is less than the right, or equal too if `or_equal`.
+/// An order comparison: left less than right, or equal as well if `or_equal`.
 struct Order {
     left: In,
     right: In,
@@ -207,7 +207,7 @@ fn less(is_float: bool, order: &Order, to: Out) -> Instruction {
 fn jump(is_float: bool, order: &Order, when: bool, target: Target) -> Instruction {
     let (left, right) = (order.left, order.right);
     if is_float {
-        // What is no number is in no order.
+        // NaN compares false in every order.
         return match (order.or_equal, when) {
             (false, true) => Instruction::JumpIfLessFloat {
                 left,

@@ -1,4 +1,4 @@
-//! Handlers of messages, of what primitives report and of inputs.
+//! Handlers of messages, of primitives' events and of inputs.
 
 use alloc::format;
 use alloc::string::String;
@@ -12,7 +12,7 @@ use crate::ir::Type;
 use crate::machine::{FunctionKind, Origin};
 
 impl<'p> Unit<'p> {
-    /// A handler; gives the name of its event and where that comes from too.
+    /// A handler; also returns the name and the origin of its event.
     pub fn handler(&mut self, handler: &'p ir::Handler) -> Compiled<(String, Origin, Finished)> {
         let program = self.program;
         let mut body = Body::new(self, FunctionKind::Procedure, &handler.locals, handler.site);

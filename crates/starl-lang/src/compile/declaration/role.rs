@@ -1,4 +1,4 @@
-//! What is done on entering a role.
+//! The code that runs on entering a role.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -13,7 +13,7 @@ use crate::machine::operand::Short;
 use crate::machine::{FunctionKind, Instruction};
 
 impl<'p> Unit<'p> {
-    /// What is done on entering a role: that of the role which the robot has.
+    /// The code that runs on entering the robot's role.
     pub fn enter(&mut self) -> Compiled<Finished> {
         let program = self.program;
         let Some(roles) = &program.roles else {

@@ -16,7 +16,7 @@ use crate::ir::{Consistency, Site, Type};
 use crate::machine::FunctionKind;
 
 impl<'p> Unit<'p> {
-    /// What gives the parameters their default values; nothing if none has one.
+    /// The code that gives parameters their defaults; `None` if no parameter has one.
     pub fn defaults(&mut self) -> Compiled<Option<Finished>> {
         let program = self.program;
         let Some(first) = (program.parameters.iter()).find(|parameter| parameter.default.is_some())
@@ -39,7 +39,7 @@ impl<'p> Unit<'p> {
         Ok(Some(body.finish("defaults", Vec::new(), Vec::new())))
     }
 
-    /// What a program does at its start.
+    /// The code that runs at the start of a program.
     pub fn start(&mut self) -> Compiled<Finished> {
         let program = self.program;
         let site = Site {
@@ -70,8 +70,8 @@ impl<'p> Unit<'p> {
         Ok(body.finish("start", Vec::new(), Vec::new()))
     }
 
-    /// Starts the program again where a check is false: primitives stop, variables get their initial values, and `init`
-    /// runs. The role stays.
+    /// Restarts the program when a check is false: primitives stop, variables get their initial values, and `init`
+    /// runs. The role does not change.
     pub fn reset(&mut self) -> Compiled<Finished> {
         let program = self.program;
         let site = Site {

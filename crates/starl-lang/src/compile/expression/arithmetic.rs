@@ -6,7 +6,7 @@ use crate::ir::{Expression, ExpressionKind, Operator, Type};
 use crate::machine::Instruction;
 use crate::machine::operand::{In, Out};
 
-/// What stands on the left of an operator.
+/// The left operand of an operator.
 #[derive(Clone, Copy)]
 pub(in crate::compile) enum Left<'p> {
     /// An expression.

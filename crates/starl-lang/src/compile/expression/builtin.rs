@@ -75,7 +75,7 @@ impl<'p> Body<'_, 'p> {
         argument.ok_or_else(|| self.broken())
     }
 
-    /// What asks or tells the host.
+    /// A call to the host.
     fn robot(
         &mut self,
         builtin: Builtin,

@@ -37,7 +37,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// `item in collection`, for all but ranges.
+    /// `item in collection`, except for ranges.
     pub fn contained(
         &mut self,
         item: &'p Expression,

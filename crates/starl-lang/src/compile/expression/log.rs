@@ -1,4 +1,4 @@
-//! What `log` writes: a text with places for values.
+//! The text of `log`, with its placeholders.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -59,7 +59,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// A text whose `{}` stand for the values. Values without one are computed all the same.
+    /// A text whose `{}` stand for the values. Values without one are computed too.
     fn format(
         &mut self,
         pieces: &'p str,

@@ -113,7 +113,7 @@ impl<'p> Body<'_, 'p> {
         arguments.get(index).ok_or_else(|| self.broken())
     }
 
-    /// What a method makes of a copy of the value that it is called on.
+    /// A method applied to a copy of its receiver.
     fn changed_copy(
         &mut self,
         ty: &Type,

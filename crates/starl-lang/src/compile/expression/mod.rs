@@ -1,7 +1,7 @@
-//! Expressions: which part of the compiler each kind belongs to.
+//! Expressions: dispatches each kind to its part of the compiler.
 //!
-//! A value is computed `into` registers, or wherever it is best with `value`. Registers are *fresh* if
-//! what they hold is not read any more: then they may be written before all operands are read.
+//! A value is computed `into` given registers, or into registers chosen by `value`. Registers are *fresh* if their
+//! content is not read any more: then they may be written before all operands are read.
 
 pub(in crate::compile) mod arithmetic;
 mod builtin;
@@ -262,7 +262,7 @@ pub(in crate::compile) fn is_located(expression: &Expression) -> bool {
     }
 }
 
-/// Whether computing the value writes parts of it before all that it is made of is read.
+/// Whether computing the value writes parts of it before everything that it is made of is read.
 fn writes_early(expression: &Expression) -> bool {
     match &expression.kind {
         ExpressionKind::Present(_)

@@ -79,7 +79,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// A duration by a Float, to the nearest nanosecond; what is no duration is an error.
+    /// A duration by a Float, to the nearest nanosecond; a result that is not a duration is an error.
     fn divide_span_by_float(&mut self, to: Slot, span: In, divisor: In) -> Compiled {
         let mark = self.mark();
         let (quotient, one) = (self.take(Size::SCALAR)?, self.take(Size::SCALAR)?);

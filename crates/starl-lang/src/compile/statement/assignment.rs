@@ -85,7 +85,7 @@ impl<'p> Body<'_, 'p> {
         }
     }
 
-    /// What is added to a text or a list by `x = x + value`.
+    /// The value that `x = x + value` appends to a text or a list.
     fn grown(&self, place: &Place, value: &'p Expression) -> Option<&'p Expression> {
         let ExpressionKind::Binary {
             operator: Operator::Add,
@@ -115,7 +115,7 @@ impl<'p> Body<'_, 'p> {
         let prepared = self.prepare(place)?;
         let (mut way, ty) = self.go(place, &prepared, place.path.len())?;
         if matches!(ty, Type::String | Type::List(_)) {
-            // What is added may be a part of the variable itself: it is read before that changes.
+            // The appended value may be a part of the variable itself, so it is read before the variable changes.
             let object = self.container(&mut way)?;
             self.append(object.0, value)?;
             self.write_back(way.back)?;

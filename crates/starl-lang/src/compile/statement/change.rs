@@ -1,4 +1,4 @@
-//! Methods that change what they are called on.
+//! Methods that change their receivers.
 
 use alloc::vec::Vec;
 
@@ -11,7 +11,7 @@ use crate::machine::Instruction;
 use crate::machine::operand::{ObjectIn, ObjectInOut};
 
 impl<'p> Body<'_, 'p> {
-    /// A method that changes what it is called on.
+    /// A method that changes its receiver.
     pub fn change(
         &mut self,
         place: &'p Place,

@@ -2,8 +2,8 @@
 
 use crate::ir::{Expression, ExpressionKind, LocalId, Place, Root, Statement, StatementKind};
 
-/// Whether the statements may change the variable that the expression is, or is a part of. What is
-/// computed anew is not changed by anything.
+/// Whether the statements may change the variable that the expression names or is a part of. A computed value never
+/// changes.
 pub(in crate::compile) fn may_change(statements: &[Statement], expression: &Expression) -> bool {
     match root(expression) {
         Some(variable) => statements

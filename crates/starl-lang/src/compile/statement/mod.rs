@@ -17,7 +17,7 @@ use crate::machine::operand::{Count, FunctionIndex, Slot as StateSlot};
 use crate::machine::{FunctionKind, Instruction};
 
 impl<'p> Body<'_, 'p> {
-    /// The statements of a block. Its locals are gone at its end.
+    /// The statements of a block. Its locals end with it.
     pub fn block(&mut self, statements: &'p [Statement]) -> Compiled {
         let mark = self.mark();
         for statement in statements {
@@ -192,7 +192,7 @@ impl<'p> Body<'_, 'p> {
         });
     }
 
-    /// Ends a procedure that may come to its end.
+    /// Ends a procedure whose end can be reached.
     pub fn end(&mut self) {
         debug_assert!(self.kind == FunctionKind::Procedure);
         if self.code.is_reached() {

@@ -1,8 +1,8 @@
-//! The way from a variable to a part of it, and back.
+//! The path from a variable to a part of it, and back.
 //!
-//! Indices and keys on the way are computed first. Then the way is gone from the variable on: fields
-//! lie within their record; an element of a list or a value of a map is read into registers, changed
-//! there, and written back, the innermost first.
+//! Indices and keys on the path are computed first. Then the path is followed from the variable: fields lie within
+//! their record; an element of a list or a value of a map is read into registers, changed there, and written back, the
+//! innermost first.
 
 use alloc::vec::Vec;
 
@@ -13,7 +13,7 @@ use crate::ir::{Place, Root, SharedId, Step, Type};
 use crate::machine::operand::{In, ObjectIn, ObjectInOut, ObjectOut, ObjectSlot};
 use crate::machine::{Instruction, operand};
 
-/// What a step needs that was computed before the way is gone.
+/// Values that a step needs, computed before the path is followed.
 #[derive(Clone, Copy)]
 pub(super) enum Prepared {
     /// A step within registers.
@@ -24,7 +24,7 @@ pub(super) enum Prepared {
     Entry(Slot),
 }
 
-/// What is to be done when a part was changed.
+/// A pending write after a part was changed.
 pub(super) enum WriteBack {
     List(ObjectInOut, In, Slot),
     Map(ObjectInOut, Slot, operand::Type),
@@ -32,13 +32,13 @@ pub(super) enum WriteBack {
     Shared(SharedId, Slot),
 }
 
-/// A way that was gone.
+/// A path that was followed.
 pub(super) struct Way<'p> {
     /// Where it led.
     pub at: Location,
-    /// The type of what is there.
+    /// The type of the part.
     pub ty: &'p Type,
-    /// What is to be written back, the innermost last.
+    /// The pending writes, the innermost last.
     pub back: Vec<WriteBack>,
 }
 
@@ -88,7 +88,7 @@ impl<'p> Body<'_, 'p> {
         }
     }
 
-    /// Goes so many steps of the way; gives the type of what is there too.
+    /// Follows this number of steps of the path; returns the type of the part too.
     pub(super) fn go(
         &mut self,
         place: &'p Place,
@@ -164,8 +164,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// The operand of the object that a way has come to. One that is out of reach is read, to be
-    /// written back.
+    /// The operand of the object at the end of a path. An object without an operand is read, and written back later.
     pub(super) fn container(&mut self, way: &mut Way<'p>) -> Compiled<ObjectInOut> {
         match way.at {
             Location::Registers(slot) => Ok(slot.object_in_out()),

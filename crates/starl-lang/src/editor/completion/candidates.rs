@@ -1,4 +1,4 @@
-//! What may stand in a context.
+//! The candidates in a context.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -24,7 +24,7 @@ const ARGUMENT: u8 = 4;
 pub(super) const COMMON: u8 = 5;
 const WORD: u8 = 6;
 
-/// Collects what may stand in a context of a checked text.
+/// Collects the candidates in a context of a checked text.
 pub(super) struct Candidates<'a> {
     pub checked: &'a Checked,
     pub items: Vec<Completion>,
@@ -90,7 +90,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// Adds what a name stands for.
+    /// Adds the meaning of a name.
     pub fn symbol(&mut self, symbol: Symbol, rank: u8) {
         let Some((label, call)) = self.named(symbol) else {
             return;
@@ -145,7 +145,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// What has the type that is expected is likelier than the rest of its kind.
+    /// Ranks values of the expected type before others of their kind.
     fn prefer(&mut self, expected: Option<&Type>) {
         let Some(expected) = expected else { return };
         let program = &self.checked.program;
@@ -188,7 +188,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// What the file itself declares.
+    /// The declarations of the file.
     fn declared(&mut self, reach: &Reach) {
         let program = &self.checked.program;
         if reach.sees_parameters {
@@ -260,7 +260,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// What every program has, as far as it may be used.
+    /// The built-in names that may be used here.
     fn common(&mut self, reach: &Reach) {
         for builtin in BUILTINS {
             let of_property = reach.in_property && builtin.purity() == Purity::Property;

@@ -1,4 +1,4 @@
-//! Which words of the language may stand at a place, and what the checker knows of it.
+//! The keywords allowed at a position, and the checker's knowledge of it.
 
 use crate::check::Surroundings;
 use crate::syntax::{SyntaxKind, SyntaxNode, SyntaxToken};
@@ -28,7 +28,7 @@ pub(super) fn of(probe: &SyntaxToken, found: Option<Surroundings>) -> Option<Con
     let within = |kind| parent.ancestors().any(|node| node.kind() == kind);
     let begins_statement = begins_statement(probe);
     if let Some(surroundings) = found {
-        // A line in an action's body that is no clause is read as a statement.
+        // A line in an action's body without a clause keyword is read as a statement.
         let in_clause = parent.ancestors().any(|node| is_begun_clause(&node));
         if begins_line && within(SyntaxKind::ActionBody) && !in_clause {
             return Some(Context::Clause);

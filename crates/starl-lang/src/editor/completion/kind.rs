@@ -1,4 +1,4 @@
-//! What kind of thing a completion is, for the picture beside it.
+//! The kind of a completion, which decides its icon.
 
 use serde::Serialize;
 
@@ -25,11 +25,11 @@ pub enum CompletionKind {
     Function,
     /// A word of the language.
     Keyword,
-    /// What is called of a value or a primitive.
+    /// A method of a value or a primitive.
     Method,
     /// A library.
     Module,
-    /// What is read of a primitive.
+    /// A flag of a primitive.
     Property,
     /// A record, a message or a built-in type.
     Struct,
@@ -38,7 +38,7 @@ pub enum CompletionKind {
 }
 
 impl Completion {
-    /// What kind of thing it is.
+    /// The kind of the completion.
     #[must_use]
     pub fn kind(&self) -> CompletionKind {
         let is_called = self.call != Call::No;

@@ -7,7 +7,7 @@ use super::candidates::Candidates;
 use crate::check::{PRIMITIVES, Signature, Symbol};
 
 impl Candidates<'_> {
-    /// The name of something and how it is called; none of what has none.
+    /// The name of a symbol and the form of its call; none if it has no name.
     pub fn named(&self, symbol: Symbol) -> Option<(String, Call)> {
         let program = &self.checked.program;
         let calls = |parameters: usize| match parameters {

@@ -1,4 +1,4 @@
-//! What stands after a dot, and where something other than a value stands.
+//! Completions after a dot, and where a name other than a value is expected.
 
 use alloc::string::String;
 
@@ -12,7 +12,7 @@ use crate::check::{Libraries, Method, PRIMITIVES, Symbol};
 use crate::ir::{BindingId, ParameterId, RecordId, Type, VariableId};
 
 impl Candidates<'_> {
-    /// What stands after the dot of a value.
+    /// The completions after the dot of a value.
     pub fn members(&mut self, of: &Type, in_property: bool) {
         let receiver = match of {
             Type::List(_) => "List",
@@ -50,7 +50,7 @@ impl Candidates<'_> {
         }
     }
 
-    /// What stands after the dot of something that is no value.
+    /// The completions after the dot of a library, primitive or enum.
     pub fn parts(&mut self, symbol: Symbol) {
         match symbol {
             Symbol::File(file) => self.of_file(file, OWN),
@@ -121,7 +121,7 @@ impl Candidates<'_> {
         }
     }
 
-    /// The libraries that there are, but for the text itself.
+    /// All libraries except the text itself.
     pub fn libraries(&mut self, libraries: &dyn Libraries) {
         let own = headers(self.checked).find(|(file, _)| *file == 0);
         let own = own.map_or(String::new(), |(_, site)| {

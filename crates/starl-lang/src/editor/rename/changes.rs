@@ -9,7 +9,7 @@ use super::super::index::{Index, Occurrence};
 use super::super::{Analysis, Utf16Lines};
 use super::FileEdits;
 use crate::check::{Checked, Libraries, Symbol, check};
-use crate::diagnostic::{Diagnostic, Edit, Mend, Severity, Span};
+use crate::diagnostic::{Diagnostic, Edit, Fix, Severity, Span};
 use crate::ir::Site;
 
 /// The places that change, by file.
@@ -47,11 +47,11 @@ impl<'a> Changes<'a> {
         let files = &analysis.checked.files;
         let mut texts: BTreeMap<u32, String> = BTreeMap::new();
         for edits in self.edits() {
-            let mend = Mend {
+            let fix = Fix {
                 message: String::new(),
                 edits: edits.edits,
             };
-            let text = mend.apply(&files[edits.file as usize].source);
+            let text = fix.apply(&files[edits.file as usize].source);
             texts.insert(edits.file, text);
         }
         let library = |name: &str| {

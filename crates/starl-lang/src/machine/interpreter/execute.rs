@@ -20,7 +20,7 @@ use starl_core::{Point, RobotId};
 /// The scalar registers of a function.
 pub(in crate::machine) type Registers = [u64; WINDOW];
 
-/// What a run of the machine works on.
+/// The context of a run of the machine.
 pub(in crate::machine) struct Execution<'a> {
     pub program: &'a Program,
     pub state: &'a mut State,
@@ -497,7 +497,7 @@ impl Execution<'_> {
                             if !self.workspace.grow(base, object_base, depth + 1) {
                                 break 'run Fault::CallDepth;
                             }
-                            // Once more, now that there is room: it is paid for already.
+                            // Again, now that there is room: it is paid for already.
                             pc -= 1;
                             fuel += 1;
                             continue 'run;

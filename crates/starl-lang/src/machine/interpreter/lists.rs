@@ -8,7 +8,7 @@ use crate::machine::operand::{
 use crate::machine::value::list::{self, List};
 use crate::machine::value::object::Object;
 
-/// What sorting costs: moving everything once for each level of a merge.
+/// The cost of sorting: every element moves once for each level of a merge.
 pub(in crate::machine) fn sorting(list: &List) -> u64 {
     let levels = u64::from(list.len().next_power_of_two().trailing_zeros());
     (shift(list.bytes()) + 1) * levels
@@ -276,7 +276,7 @@ impl View<'_> {
     }
 }
 
-/// Inserts a block; gives what it costs.
+/// Inserts a block; returns the cost.
 pub(in crate::machine) fn insert(
     list: &mut List,
     at: usize,

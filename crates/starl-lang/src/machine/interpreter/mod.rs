@@ -22,7 +22,7 @@ use crate::machine::value::object::Object;
 use crate::machine::value::state::State;
 use starl_core::RobotId;
 
-/// What one activation may use.
+/// The limits of one activation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Units of fuel; see [`Instruction`](crate::machine::Instruction) for what costs how many.
@@ -42,7 +42,7 @@ impl Default for Limits {
     }
 }
 
-/// One activation of one robot's program. What is run in it shares its limits.
+/// One activation of one robot's program. All procedures of the activation share its limits.
 ///
 /// After an error the state is as the program left it: the robot's program should not be run again.
 pub struct Machine<'a> {
@@ -239,8 +239,8 @@ impl<'a> Machine<'a> {
         result
     }
 
-    /// Whether a claim, a function of kind property, holds of these robots, whose states the host
-    /// gives. Changes nothing.
+    /// Evaluates a claim, a function of kind property, for these robots, whose states the host provides. Changes
+    /// nothing.
     pub fn holds(
         program: &Program,
         function: u32,

@@ -13,7 +13,7 @@ use core::cmp::Ordering;
 use starl_core::{Area, ConvexPolygon, Point, RobotId};
 
 impl View<'_> {
-    /// Executes an instruction on objects or a call of the host; gives what it costs beyond one.
+    /// Executes an instruction on objects or a call of the host; returns the cost beyond one.
     pub fn execute(&mut self, instruction: Instruction) -> Result<u64, Fault> {
         use Instruction::*;
         match instruction {
@@ -233,7 +233,7 @@ impl View<'_> {
         let (Some(scalars), Some(objects)) = (scalars, objects) else {
             return Err(Fault::Malformed);
         };
-        // Registers of results that are no arguments hold nothing yet.
+        // Result registers beyond the arguments are empty so far.
         scalars[arguments.scalars.len()..].fill(0);
         objects[arguments.objects.len()..].fill(Object::EMPTY);
         let mut call = HostCall {

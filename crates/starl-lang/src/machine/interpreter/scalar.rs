@@ -6,8 +6,7 @@ use crate::machine::operand::{Binary, Rounding, Unary};
 use alloc::borrow::Cow;
 use starl_core::{RobotId, math};
 
-/// The bits of a Float, those of one certain NaN for all NaN: processors differ in which one they
-/// make.
+/// The bits of a Float; all NaN become one, because processors differ in the NaN they produce.
 #[inline(always)]
 pub(in crate::machine) fn bits(number: f64) -> u64 {
     if number.is_nan() {
@@ -167,9 +166,7 @@ pub(in crate::machine) fn point_of_other(
     point.copied().ok_or(Fault::Malformed)
 }
 
-/// What a program is told that asks for the state of a robot that there is not.
+/// The error of a program that asks for the state of a robot that does not exist.
 pub(in crate::machine) fn unknown_robot() -> Fault {
-    Fault::Host(Cow::Borrowed(
-        "there is no such robot that runs this program",
-    ))
+    Fault::Host(Cow::Borrowed("no robot with this number runs this program"))
 }

@@ -1,9 +1,9 @@
-//! What an instruction on objects sees: the windows of the running function, the state's objects, the
-//! host; and the metering of memory.
+//! The context of an instruction on objects: the windows of the running function, the state's objects and the host. It
+//! also meters memory.
 //!
-//! Memory is counted as if nothing were shared, so that what a program may do does not depend on who
-//! else holds its values. Counting afresh after every instruction would be slow: the meter counts what
-//! is added until that could exceed the budget, and only then sums up what there is.
+//! Memory is counted as if no value were shared, so that a program's limits do not depend on other holders of its
+//! values. A full count after every instruction would be slow: the meter adds up growth until the sum could exceed the
+//! budget, and only then counts all values.
 
 use crate::machine::error::Fault;
 use crate::machine::host::Host;
@@ -17,7 +17,7 @@ use crate::machine::types::{Layout, Parts};
 use crate::machine::value::list::Block;
 use crate::machine::value::object::Object;
 
-/// What an activation may use.
+/// The memory that an activation may use.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::machine) struct Meter {
     /// Instructions that are left.
@@ -41,7 +41,7 @@ pub(in crate::machine) struct View<'a> {
     pub meter: &'a mut Meter,
 }
 
-/// What copying or moving this many bytes costs.
+/// The cost of copying or moving this many bytes.
 pub(in crate::machine) fn shift(bytes: usize) -> u64 {
     (bytes / 64) as u64
 }
@@ -108,13 +108,13 @@ impl<'a> View<'a> {
         Ok(cost + self.put(to, object)?)
     }
 
-    /// Changes an object in place and counts the memory that it grows by. The change gives its cost.
+    /// Changes an object in place and counts the memory that it grows by. The change returns its cost.
     pub fn change(
         &mut self,
         operand: ObjectInOut,
         change: impl FnOnce(&mut Object, &View<'a>) -> Result<u64, Fault>,
     ) -> Result<u64, Fault> {
-        // The object is taken out while it is changed, so that nobody else holds it.
+        // The object is taken out of its place while it is changed, so that it has no second holder.
         let mut object = core::mem::take(self.place(operand.0)?);
         let before = object.bytes();
         let result = change(&mut object, self);
@@ -142,7 +142,7 @@ impl<'a> View<'a> {
         self.block_of(scalars, layout.scalars.len(), objects, layout.objects.len())
     }
 
-    /// The registers of a value of so many scalars and objects.
+    /// The registers of a value with this number of scalars and objects.
     pub fn block_of(
         &self,
         scalars: operand::Block,

@@ -53,7 +53,7 @@ impl Workspace {
         Workspace::default()
     }
 
-    /// Gives back the room that deep calls took.
+    /// Frees the memory of deep calls.
     pub fn trim(&mut self) {
         if self.scalars.len() > 16 * WINDOW || self.objects.len() > 16 * OBJECT_WINDOW {
             *self = Workspace::new();
@@ -67,8 +67,8 @@ impl Workspace {
         }
     }
 
-    /// Makes room for windows that begin at these registers and for so many calls; false if they lie
-    /// beyond the bounds.
+    /// Makes room for windows that begin at these registers and for this number of calls; false if they exceed the
+    /// bounds.
     #[cold]
     pub(in crate::machine) fn grow(
         &mut self,

@@ -54,12 +54,12 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-/// What is wrong with the text form of a program.
+/// An error in the text form of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AssemblyError {
     /// The line, counted from one.
     pub line: u32,
-    /// What is wrong with it.
+    /// The reason.
     pub reason: &'static str,
 }
 
@@ -154,7 +154,7 @@ impl Assembler {
         };
         match read {
             Some(()) if cursor.rest().is_empty() => Ok(()),
-            _ => Err("this is no declaration, label or instruction"),
+            _ => Err("this is not a declaration, label or instruction"),
         }
     }
 
@@ -165,7 +165,7 @@ impl Assembler {
             let words: Vec<&str> = text.split_whitespace().collect();
             let label = |name: &str| labels.get(name).copied();
             let Some(instruction) = Instruction::read(&words, &label) else {
-                let reason = "this is no instruction, or one with other operands";
+                let reason = "this is not an instruction with these operands";
                 return Err(AssemblyError { line, reason });
             };
             self.bytecode.code.push(instruction);
@@ -177,14 +177,14 @@ impl Assembler {
     }
 
     fn text(&mut self, quoted: &str) -> Result<(), &'static str> {
-        let text = unquote(quoted.trim()).ok_or("this is no text in quotes")?;
+        let text = unquote(quoted.trim()).ok_or("this is not a text in quotes")?;
         self.bytecode.texts.push(text);
         Ok(())
     }
 
     fn file(&mut self, rest: &str) -> Result<(), &'static str> {
         let end = rest.rfind('"').map_or(0, |quote| quote + 1);
-        let name = unquote(rest[..end].trim()).ok_or("this is no name in quotes")?;
+        let name = unquote(rest[..end].trim()).ok_or("this is not a name in quotes")?;
         let numbers = rest[end..].split_whitespace().map(str::parse);
         let lines = numbers.collect::<Result<_, _>>();
         let lines = lines.map_err(|_| "lines begin at bytes")?;

@@ -64,7 +64,7 @@ impl<'a> Cursor<'a> {
         Cursor { rest: text.trim() }
     }
 
-    /// What has not been read.
+    /// The unread rest.
     pub fn rest(&self) -> &'a str {
         self.rest
     }

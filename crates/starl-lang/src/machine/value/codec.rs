@@ -2,10 +2,10 @@
 //!
 //! The types are known on both sides, so that bytes hold values alone, as the postcard format has
 //! them: Ints as variable-length zigzag numbers, Floats in eight bytes, other scalars as
-//! variable-length numbers, lengths before texts and collections, records as their fields. A message
-//! of scalars and texts is thus the same as that of a native program whose message is the like struct.
+//! variable-length numbers, lengths before texts and collections, records as their fields. So a message
+//! of scalars and texts has the same bytes as that of a native program with the same struct.
 //!
-//! Bytes may come from anywhere: what is no value of the type is refused.
+//! Bytes are untrusted: anything except a value of the type is rejected.
 
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, ObjectType, Parts, Type};
@@ -89,7 +89,7 @@ impl Writer<'_> {
         Some(())
     }
 
-    /// Seven bits to a byte, the lowest first, the top bit set on all but the last.
+    /// Seven bits to a byte, the lowest first, the top bit set on all except the last.
     fn number(&mut self, mut number: u64) {
         while number >= 0x80 {
             self.out.push(number as u8 | 0x80);

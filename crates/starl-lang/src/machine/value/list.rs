@@ -145,7 +145,7 @@ impl List {
             && block.objects.len() == self.object_width as usize
     }
 
-    /// Puts a block in the place of an element; false if there is none or the block is not as wide.
+    /// Replaces an element by a block; false if there is no such element or the block has another width.
     #[must_use]
     pub fn set(&mut self, index: usize, block: Block<'_>) -> bool {
         if index == self.len() || !self.fits(index, block) {
@@ -207,7 +207,7 @@ impl List {
         true
     }
 
-    /// Keeps the elements from `first` on and before `last`, as far as there are any.
+    /// Keeps the existing elements from `first` to before `last`.
     pub fn slice(&mut self, first: usize, last: usize) {
         let last = last.min(self.len());
         let first = first.min(last);
@@ -286,7 +286,7 @@ impl List {
         }
     }
 
-    /// Where a block stands in a sorted list, or where it would have to.
+    /// The index of a block in a sorted list, or the index at which it belongs.
     pub fn search(
         &self,
         block: Block<'_>,

@@ -19,12 +19,12 @@ pub const WORD: usize = 8;
 
 /// A text, collection, area or obstacles; one word.
 ///
-/// The counted reference has no weak ones, so that to see that nobody else holds the body, as every
-/// change of an element does, is to look at a number and takes no atomic exchange.
+/// The reference count has no weak references. So a change of an element finds out whether it is the only holder by
+/// reading a number, without an atomic exchange.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Object(Option<Arc<Body>>);
 
-/// What an object holds.
+/// The content of an object.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Body {
@@ -106,7 +106,7 @@ impl Object {
     /// The empty text, list, set or map; no area, no obstacles.
     pub const EMPTY: Object = Object(None);
 
-    /// What it holds; none if it is empty.
+    /// Its content; none if it is empty.
     #[inline]
     pub fn body(&self) -> Option<&Body> {
         self.0.as_deref()
@@ -154,8 +154,7 @@ impl Object {
         }
     }
 
-    /// A list to be changed, made new for blocks of this layout if there is none; none if the object
-    /// is no list.
+    /// The list, mutable; created for blocks of this layout if the object is empty; none if the object is not a list.
     pub fn list_mut(&mut self, layout: &Layout) -> Option<&mut List> {
         let new = || Arc::new(Body::List(List::new(layout)));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {
@@ -172,7 +171,7 @@ impl Object {
         }
     }
 
-    /// A list to be changed if there is one that nobody else holds.
+    /// The list, mutable, if this is its only holder.
     #[inline]
     pub fn own_list_mut(&mut self) -> Option<&mut List> {
         match Arc::get_mut(self.0.as_mut()?)? {
@@ -181,7 +180,7 @@ impl Object {
         }
     }
 
-    /// A map to be changed, made new if there is none; none if the object is no map.
+    /// The map, mutable; created if the object is empty; none if the object is not a map.
     pub fn map_mut(&mut self) -> Option<&mut Map> {
         let new = || Arc::new(Body::Map(Box::default()));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {
@@ -190,7 +189,7 @@ impl Object {
         }
     }
 
-    /// A map to be changed if there is one that nobody else holds.
+    /// The map, mutable, if there is one and no other object shares it.
     #[inline]
     pub fn own_map_mut(&mut self) -> Option<&mut Map> {
         match Arc::get_mut(self.0.as_mut()?)? {
@@ -199,7 +198,7 @@ impl Object {
         }
     }
 
-    /// A text to be changed, made new if there is none; none if the object is no text.
+    /// The text, mutable; created if the object is empty; none if the object is not a text.
     pub fn text_mut(&mut self) -> Option<&mut String> {
         let new = || Arc::new(Body::Text(String::new()));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {

@@ -1,4 +1,4 @@
-//! What a robot's program remembers from one activation to the next: its variables and nothing else.
+//! The state of a robot's program between activations: its variables and nothing else.
 
 use crate::machine::types::Layout;
 use crate::machine::value::object::{Object, WORD};

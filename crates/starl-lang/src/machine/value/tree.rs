@@ -45,7 +45,7 @@ pub enum Value {
     Set(Vec<Value>),
     /// Entries of a map, by ascending key.
     Map(Vec<(Value, Value)>),
-    /// A region; none of a variable that was not given one.
+    /// A region; none if the variable was never assigned.
     Area(Option<Area>),
     /// Obstacles.
     Obstacles(starl_core::motion::Obstacles),
@@ -59,8 +59,7 @@ struct Reader<'a> {
 }
 
 impl Value {
-    /// The value that lies in these scalars and objects; none if there are too few of them, or they
-    /// are no value of that type.
+    /// The value in these scalars and objects; none if there are too few of them, or they are not a value of that type.
     pub fn read(
         program: &Program,
         kind: &Type,

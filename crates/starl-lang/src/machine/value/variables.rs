@@ -1,4 +1,4 @@
-//! Variables of a state by name: for parameters, and for whoever looks at a state.
+//! Variables of a state by name: for parameters, and for inspecting a state.
 
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, Type};
@@ -32,8 +32,8 @@ impl Program {
         })
     }
 
-    /// The values of all variables of a state, with their names and in their order. A variable whose
-    /// scalars are no value of its type, for instance after a fault was put in, is left out.
+    /// The values of all variables of a state, with their names and in their order. A variable whose scalars are not a
+    /// value of its type, for instance after a fault, is omitted.
     pub fn values<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (&'a str, Value)> + 'a {
         self.places().filter_map(|(name, place)| {
             let scalars = state.scalars.get(place.scalars)?;
@@ -61,8 +61,8 @@ impl Program {
             .map(|(_, value)| value)
     }
 
-    /// Gives a variable of a state a value; false if there is no such variable, or the value is not of
-    /// its type. Of parameters the program counts on having them before its start.
+    /// Gives a variable of a state a value; false if there is no such variable, or the value is not of its type.
+    /// Parameters must be set before the program's start.
     #[must_use]
     pub fn set(&self, state: &mut State, name: &str, value: &Value) -> bool {
         let Some((_, place)) = self.places().find(|(found, _)| *found == name) else {

@@ -1,8 +1,8 @@
-//! What registers hold at each instruction of a function, by following all ways through it.
+//! The contents of registers at each instruction of a function, found by following all paths through it.
 //!
-//! A data-flow analysis as in the verifier of the Java virtual machine (Lindholm and Yellin 1996,
-//! section 4.9), with less to know: of a scalar register whether it was written, of an object register
-//! the type of what was. Where ways meet, what they do not agree on counts as not written.
+//! A data-flow analysis as in the verifier of the Java virtual machine (Lindholm and Yellin 1996, section 4.9), with
+//! fewer facts: whether a scalar register was written, and the type of the object in an object register. Where paths
+//! meet, a register on which they differ counts as not written.
 //!
 //! Invariant: facts at an instruction only ever become fewer, so the analysis ends.
 
@@ -23,14 +23,14 @@ const UNWRITTEN: u16 = u16::MAX;
 /// A rule that is broken.
 pub(in crate::machine) type Broken = &'static str;
 
-/// What is known of the registers before an instruction.
+/// The facts about the registers before an instruction.
 #[derive(Clone, PartialEq, Eq)]
 pub(in crate::machine) struct Facts {
     scalars: [u64; WINDOW / 64],
     objects: [u16; OBJECT_WINDOW],
 }
 
-/// A function and what it may use.
+/// A function and its permissions.
 pub(in crate::machine) struct Context<'a> {
     pub bytecode: &'a Bytecode,
     pub tables: &'a Tables,
@@ -77,7 +77,7 @@ impl Facts {
 }
 
 impl Context<'_> {
-    /// So many scalar registers are there and were written.
+    /// Checks that this number of scalar registers exist and were written.
     pub fn reads(&self, first: u8, count: usize) -> Result<(), Broken> {
         let range = usize::from(first)..usize::from(first) + count;
         if range.end > usize::from(self.function.registers) {
@@ -90,7 +90,7 @@ impl Context<'_> {
         }
     }
 
-    /// So many scalar registers are there; they are written now.
+    /// Checks that this number of scalar registers exist, and marks them as written.
     pub fn writes(&mut self, first: u8, count: usize) -> Result<(), Broken> {
         let range = usize::from(first)..usize::from(first) + count;
         if range.end > usize::from(self.function.registers) {
@@ -127,7 +127,7 @@ impl Context<'_> {
         kind.copied().ok_or("there is no such object in the state")
     }
 
-    /// Whether an object operand may be changed in place; gives its type.
+    /// Checks that an object operand may be changed in place; returns its type.
     pub fn changed(&self, operand: u8) -> Result<u16, Broken> {
         if operand >= FIRST_STATE_OPERAND {
             self.may_write_state()?;
@@ -197,7 +197,7 @@ impl Context<'_> {
         Ok(())
     }
 
-    /// A call whose windows begin here takes and gives these values; the rest is lost.
+    /// A call whose windows begin here takes and returns these values; other registers are lost.
     pub fn calls(
         &mut self,
         scalars: u8,
@@ -247,7 +247,7 @@ pub(in crate::machine) fn check(
                 at = code.len() - 1;
                 return Err(LoadError::Invalid {
                     position: Some(function.entry + at as u32),
-                    reason: "the function goes on past its end",
+                    reason: "the function continues past its end",
                 });
             };
             // Facts are kept where ways meet.

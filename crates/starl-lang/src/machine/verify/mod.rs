@@ -1,9 +1,9 @@
-//! The verifier: bytecode that passes can be run without harm, whoever wrote it.
+//! The verifier: bytecode that passes is safe to run, whatever its origin.
 //!
-//! It sees that all indices are in range, that functions are called with the registers that they
-//! need, that every register is written before it is read and every object is of the type that the
-//! instruction works on ([`flow`]), and that guards and properties change nothing. What
-//! scalars mean is not checked: any 64 bits are an Int, a Float or a Bool.
+//! It checks that all indices are in range and that functions are called with the registers that they need. It also
+//! checks that every register is written before it is read, that every object has the type that the instruction needs
+//! ([`flow`]), and that guards and properties change nothing. The meaning of scalars is not checked: any 64 bits are a
+//! valid Int, Float or Bool.
 
 mod collections;
 mod flow;
@@ -20,7 +20,7 @@ use alloc::vec::Vec;
 /// The deepest that records and optionals may be nested within a type.
 const DEEPEST_VALUE: u32 = 32;
 
-/// What the verifier works out and the machine needs.
+/// Facts from the verifier that the machine needs.
 pub(in crate::machine) struct Tables {
     pub parts: Vec<Parts>,
     pub state: Layout,
@@ -215,7 +215,7 @@ fn entry_points(bytecode: &Bytecode) -> Result<(), LoadError> {
             let time = function(bytecode, time, FunctionKind::Guard)?;
             check(
                 time.arguments.is_empty() && time.results == [Type::Bool, Type::Duration],
-                "an action's time is no Duration",
+                "an action's time is not a Duration",
             )?;
         }
     }

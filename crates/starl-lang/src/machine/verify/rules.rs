@@ -1,6 +1,6 @@
-//! What the verifier asks of each instruction, and what it knows after it.
+//! The verifier's conditions for each instruction, and the facts that hold after it.
 //!
-//! Scalars and jumps follow from the operands' types. What follows from the types of values is said
+//! The rules for scalars and jumps follow from the operands' types. The rules that depend on the types of values are
 //! here, instruction by instruction.
 
 use crate::machine::instruction::Instruction;

@@ -1,8 +1,7 @@
-//! Which parts of a program work with the same variables.
+//! Finds the parts of a program that use the same variables.
 //!
-//! Between the moment at which it is known what an action with `atomic` writes and the moment at which that is
-//! stored and the action takes place, nothing that it depends on may change: what uses the same variables or
-//! the same kind of primitive waits.
+//! The writes of an action with `atomic` are computed first, then stored, and then the action takes place. Nothing that
+//! the action depends on may change meanwhile, so parts that use the same variables or the same kind of primitive wait.
 
 use crate::machine::operand::{FIRST_STATE_OPERAND, Use};
 use crate::machine::{Bytecode, Instruction};
@@ -22,14 +21,14 @@ enum Place {
     Kind(String),
 }
 
-/// What a part of a program works with.
+/// The variables and primitives that a part of a program uses.
 #[derive(Clone, Debug, Default)]
 struct Footprint {
     read: BTreeSet<Place>,
     written: BTreeSet<Place>,
 }
 
-/// What an action with `atomic` keeps waiting.
+/// The parts of a program that wait for an action with `atomic`.
 #[derive(Clone, Debug)]
 pub struct Conflicts {
     /// Whether it does, for each action.

@@ -2,8 +2,8 @@
 
 use alloc::vec::Vec;
 
-/// The groups of linearizable variables: those that some action uses together, directly or by way of
-/// others. Given which instances each action uses, gives for each instance the first of its group.
+/// The groups of linearizable variables: those that some action uses together, directly or through others. Takes the
+/// instances that each action uses, and returns for each instance the first of its group.
 pub fn join_groups(instances: usize, actions: &[Vec<u32>]) -> Vec<u32> {
     let mut first: Vec<u32> = (0..instances as u32).collect();
     for used in actions {

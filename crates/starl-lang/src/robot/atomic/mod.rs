@@ -1,20 +1,19 @@
 //! Actions with `atomic`: how a robot reads and writes linearizable variables as one step.
 //!
-//! When the guard of such an action holds by what the robot knows, the robot asks for the lock of the
-//! action's variables and claims them: it reads their latest values from a majority, which promises to store
-//! nothing under a lower number any more. It finds out what the action writes, has that stored by a majority,
-//! and only then the action takes place, as it was found out. If others have claimed the variables meanwhile it
-//! is not stored, nothing has happened, and the action is tried anew.
+//! When the guard of such an action holds for the values that the robot knows, the robot requests the lock of the
+//! action's variables. Then it claims them: it reads their latest values from a majority, which promises not to store
+//! anything under a lower number. Then the robot computes the action's writes and asks a majority to store them. The
+//! action takes place, with these writes, only after they are stored. If another robot has claimed the variables
+//! meanwhile, nothing is stored and the action is retried.
 //!
-//! Safety rests on the claims alone (`starl_primitives::register`, the module `claiming`): the lock, which has
-//! leases so that who holds it may fail, only keeps robots from disturbing each other. So neither clocks nor
-//! leases nor suspicions can lose what an action wrote.
+//! Safety rests on the claims alone (`starl_primitives::register`, the module `claiming`): the lock only reduces
+//! contention, and has leases so that its holder may fail. So neither clocks nor leases nor false suspicions can lose
+//! an action's writes.
 //!
-//! Invariants: a robot waits for one action at a time, and holds the lock of no others, so robots do not wait
-//! for each other in circles. Variables that some action uses together are one group: one lock, and one
-//! register that holds the values of all of them, so that of what an action writes others see all or
-//! nothing, even if the robot crashes meanwhile. While what an action writes is being stored, nothing that the
-//! action depends on changes ([`Conflicts`]).
+//! Invariants: a robot waits for one action at a time, and holds the lock of no others, so robots do not wait for each
+//! other in circles. Variables that some action uses together are one group: one lock, and one register that holds the
+//! values of all of them, so that others see all writes of an action or none, even if the robot crashes meanwhile.
+//! While an action's writes are being stored, nothing that the action depends on changes ([`Conflicts`]).
 
 mod footprint;
 mod groups;
@@ -62,14 +61,14 @@ enum Stage {
     Locking(u32),
     /// It has, or had, the lock and waits for the values.
     Claiming(u32, OperationId),
-    /// It is known what it writes, and that is being stored.
+    /// Its writes are known, and are being stored.
     Storing(u32, OperationId),
 }
 
-/// What is to be done with an action now.
+/// The next step of an action.
 #[derive(Debug)]
 pub enum Step {
-    /// Find out what it writes, given the values ([`Atomic::open`]), and store that ([`Atomic::store`]).
+    /// Compute its writes from the values ([`Atomic::open`]), and store them ([`Atomic::store`]).
     Try(u32, Values),
     /// It takes place, by this script. [`Atomic::release`] ends it.
     Perform(u32, Script),
@@ -103,7 +102,7 @@ impl Atomic {
         }
     }
 
-    /// A variable's value: while an action is tried the latest, else what is known here.
+    /// A variable's value: the latest while an action is tried, else the known one.
     pub fn value(&self, group: &str, variable: &str) -> Option<Payload> {
         match &self.open {
             Some(open) if *open.group == *group => open.values.get(variable).cloned(),
@@ -128,17 +127,17 @@ impl Atomic {
         });
     }
 
-    /// What the values are after an action was tried.
+    /// The values after an action was tried.
     pub fn take_values(&mut self) -> Values {
         self.open.take().map(|open| open.values).unwrap_or_default()
     }
 
-    /// Whether what the robot waits for cannot come, as far as it knows.
+    /// Whether the robot knows that it waits for something impossible at present.
     pub fn is_blocked(&self) -> bool {
         self.mutex.failed() || self.register.failed()
     }
 
-    /// The action whose writes are being stored: what it depends on must not change.
+    /// The action whose writes are being stored: its dependencies must not change.
     pub fn stores(&self) -> Option<u32> {
         match self.stage {
             Stage::Storing(action, _) => Some(action),
@@ -160,7 +159,7 @@ impl Atomic {
         }
     }
 
-    /// Ends a pass: begins an action, or gives up the one whose guard holds no longer.
+    /// Ends a pass: begins an action, or gives up one whose guard no longer holds.
     pub fn take_turn(&mut self, robot: &mut Robot<'_>, code: &Code, turn: Turn) {
         match self.stage {
             Stage::Idle => {
@@ -189,7 +188,7 @@ impl Atomic {
         }
     }
 
-    /// Goes on as far as can be without waiting, or without the program.
+    /// Continues as far as possible without waiting, or without the program.
     pub fn go_on(&mut self, robot: &mut Robot<'_>, code: &Code) -> Option<Step> {
         while self.is_ready(code) {
             match self.stage {
@@ -224,10 +223,10 @@ impl Atomic {
         None
     }
 
-    /// An action was tried: has stored what it writes, if its guard did hold.
+    /// Starts storing the writes of a tried action, if its guard held.
     ///
     /// # Errors
-    /// Where that is too long.
+    /// The value is too long.
     pub fn store(
         &mut self,
         robot: &mut Robot<'_>,
@@ -257,7 +256,7 @@ impl Atomic {
         Ok(())
     }
 
-    /// Gives up whatever the robot waits for, and gives back what it holds.
+    /// Gives up the action that the robot waits for, and releases its lock.
     pub fn release(&mut self, robot: &mut Robot<'_>, code: &Code) {
         if let Stage::Claiming(_, operation) | Stage::Storing(_, operation) = self.stage {
             self.register.withdraw(robot, operation);
@@ -276,7 +275,7 @@ impl Atomic {
         }
     }
 
-    /// Asks anew for a lock that has ended meanwhile, and sets right what only a corruption leaves behind.
+    /// Requests a lock again that has ended meanwhile, and repairs states that only a corruption leaves behind.
     fn set_right(&mut self, robot: &mut Robot<'_>, code: &Code) {
         match self.stage {
             Stage::Idle if self.mutex.crit() || self.mutex.is_waiting() => {
@@ -322,8 +321,8 @@ impl Atomic {
     }
 }
 
-/// One of the two primitives. When it brings what the robot waits for, the robot delivers an empty message to
-/// itself, so that the action goes on at once.
+/// One of the two primitives. When it brings what the robot waits for, the robot delivers an empty message to itself,
+/// so that the action continues at once.
 struct Half<'a> {
     atomic: &'a mut Atomic,
     code: &'a Code,
@@ -356,7 +355,7 @@ impl Primitive for Half<'_> {
     }
 }
 
-/// Reads a group's register. What is none of ours is as if nothing was ever written.
+/// Reads a group's register. Bytes that are not a valid value count as never written.
 fn values(bytes: Option<&[u8]>) -> Values {
     bytes.and_then(message::decode).unwrap_or_default()
 }

@@ -1,12 +1,12 @@
-//! How an action runs twice: once to find out what it writes, on a copy of everything and with no effect, and
-//! once for real when that is stored. The second time every call to the host gives what it gave the first
-//! time, so that the action takes the same course.
+//! Scripts for the two executions of an action: a trial, which computes its writes on copies and has no effect, and the
+//! execution proper after the writes are stored. In the second one every call to the host returns the results of the
+//! first, so that the action takes the same path.
 
 use super::super::arguments::Called;
 use crate::machine::{HostCall, Object};
 use alloc::vec::Vec;
 
-/// What a call to the host gave.
+/// The results of a call to the host.
 #[derive(Clone, Debug)]
 pub struct Given {
     function: u32,
@@ -15,16 +15,15 @@ pub struct Given {
     fuel: u64,
 }
 
-/// What calls to the host do.
+/// The treatment of calls to the host.
 #[derive(Clone, Debug, Default)]
 pub enum Script {
-    /// What they are for.
+    /// Calls take effect.
     #[default]
     None,
-    /// What they are for, and it is noted what they give.
+    /// Calls take effect, and their results are recorded.
     Noted(Vec<Given>),
-    /// Queries give what is noted, and so do others after they have done what they are for; those that
-    /// remain.
+    /// Calls return the recorded results; calls other than queries take effect too. Contains the remaining results.
     Followed(alloc::collections::VecDeque<Given>),
 }
 
@@ -41,7 +40,7 @@ impl Script {
         }
     }
 
-    /// What the next call gives, if it is noted.
+    /// The results of the next call, if they are recorded.
     pub fn next(&mut self, function: u32) -> Option<Given> {
         match self {
             Script::Followed(given) => given.pop_front().filter(|next| next.function == function),
@@ -59,7 +58,7 @@ impl Script {
 }
 
 impl Given {
-    /// Gives it again.
+    /// Returns it again.
     pub fn give(self, call: &mut HostCall<'_>) -> Called {
         for (index, scalar) in self.scalars.into_iter().enumerate() {
             call.set_scalar(index, scalar);

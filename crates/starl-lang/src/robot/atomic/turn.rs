@@ -1,6 +1,6 @@
 //! Which action with `atomic` a robot waits for next: they take turns.
 
-/// What a pass over all actions finds out about atomic ones.
+/// The atomic actions that a pass over all actions has found.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Turn {
     /// Whether another action can be begun.

@@ -10,10 +10,10 @@ use starl_core::Command;
 
 /// Gives a command.
 pub fn drive(host: &mut RobotHost<'_, '_>, command: Command) -> Called {
-    for seat in host.bound.iter_mut().flatten() {
-        if seat.bound.target().is_some() {
-            seat.is_stirred = true;
-            seat.bound.halt(host.context.robot);
+    for slot in host.bound.iter_mut().flatten() {
+        if slot.bound.target().is_some() {
+            slot.is_stirred = true;
+            slot.bound.halt(host.context.robot);
         }
     }
     host.context.robot.drive(command);

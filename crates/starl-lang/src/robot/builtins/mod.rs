@@ -1,5 +1,5 @@
-//! The built-in functions and names of the language that need the robot. What depends on arguments
-//! alone is compiled to instructions.
+//! The built-in functions and names of the language that need the robot. Functions that depend on their arguments alone
+//! are compiled to instructions.
 
 mod driving;
 mod sensing;
@@ -18,15 +18,15 @@ use starl_core::Command;
 /// A built-in function or name.
 #[derive(Debug)]
 pub struct Builtin {
-    /// What it is called, takes and gives.
+    /// Its name, arguments and results.
     pub signature: Signature,
-    /// Whether what it tells depends on its arguments alone, and on what is the same from one input to the next.
+    /// Whether its result can change only with its arguments or with an input.
     pub is_steady: bool,
-    /// What it does.
+    /// The function that runs it.
     pub run: Run,
 }
 
-/// What a built-in does.
+/// The implementation of a built-in.
 pub type Run = fn(&mut RobotHost<'_, '_>, &mut HostCall<'_>) -> Called;
 
 /// One that only tells.
@@ -281,9 +281,9 @@ pub static BUILTINS: &[Builtin] = &[
         Ok(1)
     }),
     effect("stop", &[], None, |host, _| {
-        for seat in host.bound.iter_mut().flatten() {
-            seat.is_stirred = true;
-            seat.bound.halt(host.context.robot);
+        for slot in host.bound.iter_mut().flatten() {
+            slot.is_stirred = true;
+            slot.bound.halt(host.context.robot);
         }
         host.context.robot.halt();
         Ok(1)
@@ -331,9 +331,9 @@ pub static BUILTINS: &[Builtin] = &[
     }),
     // Not in the language's table: a program that starts again does this first.
     effect("reset", &[], None, |host, _| {
-        for seat in host.bound.iter_mut().flatten() {
-            seat.is_stirred = true;
-            seat.bound.reset(host.context.robot);
+        for slot in host.bound.iter_mut().flatten() {
+            slot.is_stirred = true;
+            slot.bound.reset(host.context.robot);
         }
         Ok(1)
     }),

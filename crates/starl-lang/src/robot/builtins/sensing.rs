@@ -1,4 +1,4 @@
-//! What a robot knows of the world.
+//! The robot's knowledge of the world.
 
 use crate::machine::{Block, HostCall, Layout, List, Object, Type};
 use crate::robot::arguments::{Arguments, Called};
@@ -95,7 +95,7 @@ pub fn thing_name(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Call
     Ok(1)
 }
 
-/// The place of the way-point that the call names; gives what the search costs.
+/// The position of the waypoint that the call names; returns the cost of the search.
 pub fn way_point(way_points: &[WayPoint], call: &mut HostCall<'_>) -> u64 {
     let name = String::from(Arguments::of(call).text());
     let found = way_points.iter().find(|way_point| way_point.name == name);
@@ -106,7 +106,7 @@ pub fn way_point(way_points: &[WayPoint], call: &mut HostCall<'_>) -> u64 {
     way_points.len() as u64 / 8
 }
 
-/// The places of the way-points of the group that the call names; gives what the search costs.
+/// The positions of the waypoints in the group that the call names; returns the cost of the search.
 pub fn way_point_group(way_points: &[WayPoint], call: &mut HostCall<'_>) -> u64 {
     let group = Arguments::of(call).int();
     let those = way_points

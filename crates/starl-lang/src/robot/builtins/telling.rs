@@ -1,4 +1,4 @@
-//! What a program tells those who watch.
+//! Output to observers: logs, events and drawings.
 
 use crate::machine::{HostCall, Value};
 use crate::robot::arguments::{Arguments, Called};
@@ -28,7 +28,7 @@ pub fn emit(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
     Ok(cost)
 }
 
-/// A value as a detail of an event. What events have no form for is told in words.
+/// A value as a detail of an event. Values of other types become text.
 fn detail(value: Value) -> core::Value {
     match value {
         Value::Bool(value) => value.into(),
@@ -108,8 +108,8 @@ pub fn draw_nothing(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Ca
     draw(host, call, |_| MarkShape::Nothing)
 }
 
-/// The program ends here, whatever statements follow.
+/// The program ends here, without the following statements.
 pub fn fail(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
     host.failure = Some(Arguments::of(call).text().into());
-    Err("the program cannot go on".into())
+    Err("the program cannot continue".into())
 }

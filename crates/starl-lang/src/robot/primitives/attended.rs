@@ -1,8 +1,8 @@
-//! Primitives between the host and the program: what they report is not lost, and those that have nothing to
-//! do are left alone.
+//! The link between the host and a program's primitives: their reports are collected, and primitives without work are
+//! skipped.
 //!
-//! Invariant: a primitive that has something to report has taken an input, has been called by the program, or
-//! was corrupted since its reports were taken down.
+//! Invariant: a primitive with new reports has handled an input, has been called by the program, or was corrupted since
+//! its reports were last collected.
 
 use super::{Bound, KINDS, Report};
 use crate::robot::code::Instance;
@@ -12,22 +12,22 @@ use alloc::vec::Vec;
 use core::fmt;
 use starl_core::{Input, Payload, Port, Primitive, Robot};
 
-/// A bound primitive, with what spares looking into it.
+/// A primitive of the program, with the data by which the host skips it when it has no work.
 #[derive(Clone)]
-pub struct Seat {
+pub struct BoundPrimitive {
     /// The primitive.
     pub bound: Box<dyn Bound>,
     /// Where it listens; nowhere, if it has no state machine of its own.
     pub port: Option<Port>,
-    /// Whether the program may have called it, or a fault changed it, since its reports were taken down.
+    /// Whether the program may have called it, or a fault changed it, since its reports were collected.
     pub is_stirred: bool,
 }
 
-impl Seat {
-    /// A place for a primitive.
-    pub fn new(mut bound: Box<dyn Bound>) -> Seat {
+impl BoundPrimitive {
+    /// A new primitive, which the host visits first.
+    pub fn new(mut bound: Box<dyn Bound>) -> BoundPrimitive {
         let port = bound.primitive().map(|primitive| primitive.port());
-        Seat {
+        BoundPrimitive {
             bound,
             port,
             is_stirred: true,
@@ -35,21 +35,21 @@ impl Seat {
     }
 }
 
-/// Shows the primitive alone: the rest follows from it, or makes no difference.
-impl fmt::Debug for Seat {
+/// Shows the primitive alone: the rest follows from it, or has no effect.
+impl fmt::Debug for BoundPrimitive {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.bound.fmt(f)
     }
 }
 
-/// A primitive whose reports are taken down after each input. Where the program handles them the
-/// robot delivers an empty message to itself, so that they are handled at once.
+/// A primitive whose reports are collected after each input. If the program handles them the robot delivers an empty
+/// message to itself, so that they are handled immediately.
 pub struct Attended<'a> {
     /// The primitive.
-    pub seat: &'a mut Seat,
+    pub slot: &'a mut BoundPrimitive,
     /// Where it listens.
     pub port: Port,
-    /// What the program says of it.
+    /// The instance in the program.
     pub form: &'a Instance,
     /// Its number among the program's primitives.
     pub number: u32,
@@ -67,16 +67,16 @@ impl Primitive for Attended<'_> {
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         let kind = KINDS.get(usize::from(self.form.kind));
         let is_needed = kind.is_none_or(|kind| kind.attention.is_paid_to(input));
-        if !is_needed && !self.seat.is_stirred {
+        if !is_needed && !self.slot.is_stirred {
             return;
         }
-        self.seat.is_stirred = false;
-        if let Some(primitive) = self.seat.bound.primitive() {
+        self.slot.is_stirred = false;
+        if let Some(primitive) = self.slot.bound.primitive() {
             let rests = &mut *self.rests;
             Disturbing { primitive, rests }.handle(robot, input);
         }
         let before = self.reports.len();
-        self.seat.bound.take_reports(&mut |report| {
+        self.slot.bound.take_reports(&mut |report| {
             if self
                 .form
                 .handlers
@@ -92,7 +92,7 @@ impl Primitive for Attended<'_> {
     }
 
     fn save(&mut self, robot: &mut Robot<'_>) {
-        if let Some(primitive) = self.seat.bound.primitive() {
+        if let Some(primitive) = self.slot.bound.primitive() {
             primitive.save(robot);
         }
     }

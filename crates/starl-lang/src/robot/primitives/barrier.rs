@@ -11,7 +11,7 @@ use starl_primitives::barrier::Options;
 impl Kind for Barrier {
     const NAME: &'static str = "Barrier";
 
-    /// The name of the barrier, and who has to come: all, if none are given.
+    /// The name of the barrier, and the robots that must arrive: all, if none are given.
     const CONSTRUCTOR: &'static [Shape] =
         &[Shape::Text, Shape::Optional(&Shape::Set(&Shape::Robot))];
 

@@ -13,7 +13,7 @@ use starl_primitives::election::{Algorithm, Change, Options};
 impl Kind for LeaderElection {
     const NAME: &'static str = "LeaderElection";
 
-    /// The name of the election, who takes part (all, if none are given), and how a leader is found.
+    /// The name of the election, the participants (all, if none are given), and the algorithm.
     const CONSTRUCTOR: &'static [Shape] = &[
         Shape::Text,
         Shape::Optional(&Shape::Set(&Shape::Robot)),
@@ -119,7 +119,7 @@ impl Kind for LeaderElection {
     }
 }
 
-/// Gives a value or none.
+/// Pushes a value or none.
 fn give(call: &mut HostCall<'_>, value: Option<i64>) {
     call.set_bool(0, value.is_some());
     call.set_int(1, value.unwrap_or(0));

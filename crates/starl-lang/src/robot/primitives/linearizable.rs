@@ -1,8 +1,8 @@
 //! Linearizable variables in programs: instances of a kind of their own, whose values lie in registers
 //! ([`crate::robot::atomic`]).
 //!
-//! What an action with `atomic` reads is the latest; a guard that is tried before reads what this robot
-//! knows, which may be older, or none.
+//! An action with `atomic` reads the latest values. Its guard is first evaluated on the values that this robot knows,
+//! which may be older or missing.
 
 use super::shared::{CONSISTENCY, give, value};
 use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
@@ -14,7 +14,7 @@ use starl_core::{Payload, Primitive, Random};
 /// A variable that all robots write, one after the other.
 #[derive(Clone, Debug)]
 pub struct Linearizable {
-    /// What is read before any write.
+    /// The value before any write.
     initial: Option<Payload>,
 }
 

@@ -1,7 +1,7 @@
 //! Broadcast, Geocast and Unicast in programs.
 //!
-//! A program knows its messages by numbers of its own, which count from 1 whatever their receivers:
-//! those of the protocol count for each receiver by itself. Only messages on their way are remembered.
+//! A program identifies its messages by its own numbers, which count from 1 over all receivers; the protocol counts
+//! separately for each receiver. Only outstanding messages are stored.
 
 use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Report, method, query};
 use crate::machine::HostCall;
@@ -39,10 +39,10 @@ const GAP: Event = Event {
     parameters: &[Shape::Optional(&Shape::Robot)],
 };
 
-/// So many messages are remembered before it is seen which of them are settled.
+/// The number of remembered messages at which settled ones are removed.
 const FEW: u32 = 8;
 
-/// What the three have in common.
+/// The interface common to the three.
 pub trait Channel: Primitive + Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// Its name.
     const NAME: &'static str;
@@ -51,10 +51,10 @@ pub trait Channel: Primitive + Clone + fmt::Debug + Send + Sync + Sized + 'stati
     /// All members.
     const MEMBERS: &'static [Member<Sender<Self>>];
 
-    /// What it is bound with: a name by which instances find each other instead of the one that the
-    /// program gives, and what is its own.
+    /// Its constructor: a name by which instances find each other, in place of the name in the program, and parameters
+    /// of its own.
     const CONSTRUCTOR: &'static [Shape] = &[Shape::Optional(&Shape::Text)];
-    /// What it reports.
+    /// The events that it reports.
     const EVENTS: &'static [Event] = &[FAILED];
 
     /// An instance with this name, and with what the constructor has besides.
@@ -71,7 +71,7 @@ pub trait Channel: Primitive + Clone + fmt::Debug + Send + Sync + Sized + 'stati
     fn take_failures(&mut self) -> Vec<Failure>;
     /// Overwrites its state at random.
     fn corrupt(&mut self, random: &mut Random);
-    /// What was passed over since the last call.
+    /// The gaps since the last call.
     fn take_gaps(&mut self) -> Vec<Gap> {
         Vec::new()
     }
@@ -219,7 +219,7 @@ macro_rules! unordered {
             Ok(Self::new(name, Options::default()))
         }
 
-        /// What it would believe to have sent and taken nothing could tell from the truth.
+        /// Nothing to corrupt: a false record of sent and received messages would look the same as a true one.
         fn corrupt(&mut self, _: &mut Random) {}
     };
 }

@@ -1,9 +1,7 @@
-//! Primitives as programs see them: what can be bound, what a bound one is asked and told, what it
-//! reports.
+//! Primitives in programs: constructors, flags, methods and events.
 //!
-//! A kind is one file here with an implementation of [`Kind`], and one line of [`KINDS`]; everything
-//! else is the same for all of them. The language's own table of primitives says the same of each kind
-//! to the checker.
+//! A kind is one file here with an implementation of [`Kind`], and one line of [`KINDS`]; everything else is the same
+//! for all of them. The checker has the same information in the language's own table of primitives.
 
 mod attended;
 mod barrier;
@@ -18,7 +16,7 @@ mod registration;
 mod shared;
 mod watch;
 
-pub use attended::{Attended, Seat};
+pub use attended::{Attended, BoundPrimitive};
 pub(super) use shared::give;
 
 use super::arguments::{Arguments, Called};
@@ -34,22 +32,22 @@ use dyn_clone::DynClone;
 use starl_core::{Input, Point, Primitive, Random, Robot};
 
 /// The place of a primitive on a robot: none until it is bound.
-pub type Slot = Option<Seat>;
+pub type Slot = Option<BoundPrimitive>;
 
 /// A method or flag of a kind of primitive.
 pub struct Member<P: 'static> {
-    /// What it is called, takes and gives.
+    /// Its name, arguments and results.
     pub signature: Signature,
-    /// What it does; arguments begin with the instance's number.
+    /// The function that runs it; arguments begin with the instance's number.
     pub run: fn(&mut P, &mut Context<'_, '_>, &mut HostCall<'_>) -> Called,
 }
 
 /// Something that a kind of primitive reports.
 #[derive(Debug)]
 pub struct Event {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// What it carries.
+    /// Its fields.
     pub parameters: &'static [Shape],
 }
 
@@ -58,20 +56,20 @@ pub struct Event {
 pub struct Report {
     /// Which of the kind's events.
     pub event: usize,
-    /// The scalars of what it carries.
+    /// The scalars of its fields.
     pub scalars: Vec<u64>,
-    /// The objects of what it carries.
+    /// The objects of its fields.
     pub objects: Vec<Object>,
 }
 
-/// What primitives of a program have in common, and which of it a kind needs.
+/// The services that a kind of primitive needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needs {
     /// The memory that shared variables lie in.
     pub memory: bool,
     /// The detector of failed robots.
     pub detector: bool,
-    /// What actions with `atomic` need.
+    /// The services of actions with `atomic`.
     pub atomic: bool,
 }
 
@@ -83,7 +81,7 @@ impl Needs {
         atomic: false,
     };
 
-    /// What one of two needs.
+    /// The needs of either.
     pub fn or(self, other: Needs) -> Needs {
         Needs {
             memory: self.memory || other.memory,
@@ -93,8 +91,8 @@ impl Needs {
     }
 }
 
-/// Which of the inputs that come all the time a kind does something at. A fleet is large and most
-/// primitives wait for messages: those that have nothing to do are not looked at.
+/// The frequent inputs that a kind of primitive needs. A fleet is large and most primitives wait for messages:
+/// primitives without work are skipped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attention {
     /// Position estimates.
@@ -129,15 +127,15 @@ impl Attention {
 pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// Its name.
     const NAME: &'static str;
-    /// What it is bound with.
+    /// The parameters of its constructor.
     const CONSTRUCTOR: &'static [Shape];
     /// Its methods and flags.
     const MEMBERS: &'static [Member<Self>];
-    /// What it reports.
+    /// The events that it reports.
     const EVENTS: &'static [Event] = &[];
-    /// What it shares with the program's other primitives.
+    /// The services that it shares with the program's other primitives.
     const NEEDS: Needs = Needs::NOTHING;
-    /// What it must be shown.
+    /// The inputs that it must receive.
     const ATTENTION: Attention = Attention::FULL;
 
     /// Binds an instance.
@@ -150,21 +148,21 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// The state machine; none if it has none of its own.
     fn primitive(&mut self) -> Option<&mut dyn Primitive>;
 
-    /// Overwrites its state at random, as a transient fault would. What lies in the program's shared services
-    /// is overwritten there.
+    /// Overwrites its state at random, as a transient fault would. State in the program's shared services is
+    /// overwritten there.
     fn corrupt(&mut self, random: &mut Random);
 
-    /// Hands over what has happened since the last call.
+    /// Passes the reports since the last call to `take`.
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
         let _ = take;
     }
 
-    /// Ceases to move the robot.
+    /// Stops moving the robot.
     fn halt(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }
 
-    /// Stops everything that it does for the program, which starts again. It keeps what it knows of other robots.
+    /// Stops its work for the program, which restarts. It keeps its knowledge of other robots.
     fn reset(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }
@@ -242,15 +240,15 @@ impl<P: Kind> Bound for P {
 pub struct Entry {
     /// The kind's name.
     pub name: &'static str,
-    /// What it is bound with.
+    /// The parameters of its constructor.
     pub constructor: &'static [Shape],
     /// The signature of the member with this number.
     pub member: fn(usize) -> Option<&'static Signature>,
-    /// What it reports.
+    /// The events that it reports.
     pub events: &'static [Event],
-    /// What it shares with the program's other primitives.
+    /// The services that it shares with the program's other primitives.
     pub needs: Needs,
-    /// What it must be shown.
+    /// The inputs that it must receive.
     pub attention: Attention,
     /// Binds an instance.
     pub bind: Bind,

@@ -14,8 +14,8 @@ use starl_primitives::mutex::{AcquireError, Options, Resources};
 impl Kind for Mutex {
     const NAME: &'static str = "Mutex";
 
-    /// The name of the mutex, who takes part (all, if none are given), how they agree, for how long a
-    /// lease is, and the longest time between repetitions of a request.
+    /// The name of the mutex, the participants (all, if none are given), the algorithm, the duration of a lease, and
+    /// the longest time between repetitions of a request.
     const CONSTRUCTOR: &'static [Shape] = &[
         Shape::Text,
         Shape::Optional(&Shape::Set(&Shape::Robot)),
@@ -41,8 +41,8 @@ impl Kind for Mutex {
                 let cost = 10 + resources.len() as u64;
                 match mutex.acquire(context.robot, resources) {
                     Ok(()) => Ok(cost),
-                    Err(AcquireError::HoldsOthers) => Err("this robot holds resources already; \
-                        release them first, or ask for all that are needed at once"
+                    Err(AcquireError::HoldsOthers) => Err("this robot already holds resources; \
+                        release them first, or request all needed resources at once"
                         .into()),
                 }
             },
@@ -67,7 +67,7 @@ impl Kind for Mutex {
             &[Shape::Set(&Shape::Text)],
             Shape::Bool,
             |mutex, _, call| {
-                // Programs ask at every activation: the set is not made anew for that.
+                // Programs query at every activation, so the set is not rebuilt each time.
                 let arguments = &mut Arguments::after_instance(call);
                 let (mut count, mut held) = (0, true);
                 for resource in names(arguments) {
@@ -133,7 +133,7 @@ impl Kind for Mutex {
             ("repeat", options.longest_timeout),
         ] {
             if time.is_zero() {
-                return Err(format!("`{name}` is no time at all").into());
+                return Err(format!("`{name}` must be greater than 0 s").into());
             }
         }
         Ok(Mutex::new(&name, participants, options))

@@ -8,7 +8,7 @@ use alloc::format;
 use alloc::vec::Vec;
 use starl_core::{Primitive, Random};
 
-/// So many operations of a network cost one unit of fuel; an instruction takes about as long.
+/// The number of operations of a network that cost one unit of fuel; an instruction takes about as long.
 const OPERATIONS_PER_FUEL: usize = 16;
 
 /// A network of the program.

@@ -122,7 +122,7 @@ impl Kind for ReachAvoid {
             ..default
         };
         if options.stuck_after.is_zero() {
-            return Err("`stuck_after` is no time at all".into());
+            return Err("`stuck_after` must be greater than 0 s".into());
         }
         Ok(ReachAvoid::new(&instance.name, options))
     }

@@ -1,8 +1,8 @@
 //! Shared variables in programs: each is an instance of one of two kinds, and all of a program lie in
 //! one memory.
 //!
-//! What other robots wrote comes from the network. A value that is none of the variable's type is as
-//! one that was never written.
+//! The writes of other robots arrive from the network. A value that does not have the variable's type counts as never
+//! written.
 
 use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
 use crate::machine::{Block, Body, HostCall, Layout, List, Map, Object, ObjectType, Program, Type};
@@ -24,7 +24,7 @@ pub struct SingleWriter;
 /// A variable that all robots write.
 #[derive(Clone, Debug)]
 pub struct MultiWriter {
-    /// What is read before any write.
+    /// The value before any write.
     initial: Option<Payload>,
 }
 

@@ -1,6 +1,6 @@
-//! The failure detector in programs: whom it suspects, and when it changes its mind.
+//! The failure detector in programs: the robots that it suspects, and its events.
 //!
-//! There is one detector for all primitives of a program; any number of these look at it.
+//! There is one detector for all primitives of a program; any number of instances read it.
 
 use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Needs, Report, query};
 use crate::robot::shape::Shape;
@@ -22,7 +22,7 @@ fn suspected<'a>(context: &'a Context<'_, '_>) -> impl Iterator<Item = RobotId> 
 #[derive(Clone, Debug)]
 pub struct Watch {
     port: Port,
-    /// What has not been handed over yet.
+    /// The events that have not been delivered yet.
     reports: Vec<Report>,
 }
 

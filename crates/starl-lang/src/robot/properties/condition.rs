@@ -1,8 +1,8 @@
-//! Whether a condition over robots is true at a moment: for those who wait for it, such as a breakpoint.
+//! A condition over robots, evaluated at one moment: for breakpoints and other observers that wait for it.
 
 use super::Fleet;
-use super::hearing::limits;
-use super::observables::{Counted, Court};
+use super::evaluation::limits;
+use super::observables::{Counted, PropertyHost};
 use crate::machine::{Claim, Machine};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use core::cell::Cell;
 use starl_core::{RobotId, Time};
 
-/// What a program's last property says is to come true, asked at any moment by itself.
+/// The condition of a program's last property, evaluated at any moment by itself.
 #[derive(Clone)]
 pub struct Condition {
     code: Code,
@@ -23,7 +23,7 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// The condition of the program's last property; none if that is no `eventually`, or is about several robots at
+    /// The condition of the program's last property; none if that is not an `eventually`, or is about several robots at
     /// once.
     pub fn new(code: &Code) -> Option<Condition> {
         let property = code.program().bytecode().properties.last()?;
@@ -53,7 +53,7 @@ impl Condition {
             true => roster.iter().copied().map(Some).collect(),
             false => Vec::from([None]),
         };
-        let mut court = Court {
+        let mut host = PropertyHost {
             code: &self.code,
             fleet,
             now,
@@ -68,13 +68,13 @@ impl Condition {
         };
         let mut asked = Vec::with_capacity(rows.len());
         for row in rows {
-            court.first = row;
+            host.first = row;
             let truth = Machine::holds(
                 self.code.program(),
                 self.function,
                 row.as_slice(),
                 &mut self.bench.workspace,
-                &mut court,
+                &mut host,
                 limits(roster.len()),
             );
             asked.push((row, truth.map_err(|error| error.fault.to_string())));

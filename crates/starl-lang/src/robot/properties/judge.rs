@@ -1,9 +1,9 @@
-//! Judging properties as time goes by: who has started, what is brought before the court, how things
-//! stand.
+//! Judges properties as the run proceeds: finds the robots that have started, evaluates the properties and returns the
+//! verdicts.
 
-use super::docket::{Docket, Row, UNKNOWN};
-use super::hearing::Hearing;
-use super::observables::{Counted, Court};
+use super::evaluation::Evaluation;
+use super::history::{History, Row, UNKNOWN};
+use super::observables::{Counted, PropertyHost};
 use super::violation::{Violation, read_variables};
 use super::{Excuse, Fleet};
 use crate::machine::{Claim, Property};
@@ -14,29 +14,29 @@ use alloc::vec::Vec;
 use core::cell::Cell;
 use starl_core::{Duration, RobotId, Time};
 
-/// How a property stands.
+/// The status of a property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// It holds: as far as has been seen, if it is about all times.
+    /// It holds; for an invariant, so far.
     Holds,
-    /// Something that it demands has not come, and is not too late.
+    /// A condition that it demands is still false, and its deadline has not passed.
     Open,
-    /// It does not hold.
+    /// It is violated.
     Violated,
 }
 
-/// A robot that has restarted has learned from the others after this time what it has to remember.
+/// After this time, a restarted robot has recovered the state that it must remember from the others.
 const REMEMBERS: Duration = Duration::from_seconds(10);
 
 /// Judges the properties of one program.
 #[derive(Clone)]
 pub struct Judge {
     code: Code,
-    dockets: Vec<Docket>,
+    histories: Vec<History>,
     bench: Workbench,
-    /// When robots were down last.
+    /// The last time at which each robot was down.
     down: BTreeMap<RobotId, Time>,
-    /// Whether at some moment no more than half of the robots were up and remembered what others had told them.
+    /// Whether at some moment at most half of the robots were up and had recovered their memory.
     lost_majority: bool,
     /// The robots that have started.
     roster: Row,
@@ -45,15 +45,15 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// A judge of this program's properties who has seen nothing.
+    /// A judge of this program's properties that has not seen a state yet.
     pub fn new(code: &Code) -> Judge {
         let bytecode = code.program().bytecode();
-        let docket = |property: &Property| Docket {
+        let history = |property: &Property| History {
             reads: read_variables(bytecode, property.claim),
-            ..Docket::default()
+            ..History::default()
         };
         Judge {
-            dockets: bytecode.properties.iter().map(docket).collect(),
+            histories: bytecode.properties.iter().map(history).collect(),
             bench: Workbench::default(),
             roster: Row::new(),
             down: BTreeMap::new(),
@@ -73,21 +73,21 @@ impl Judge {
         &self.code.program().bytecode().properties
     }
 
-    /// Takes in the state of the fleet at a moment, which is no earlier than the one before; time
-    /// counts from the start of the run. Gives what does not hold and has not been reported.
+    /// Observes the fleet at a moment no earlier than the previous one; time counts from the start of the run. Returns
+    /// the violations that have not been reported.
     pub fn observe(&mut self, now: Time, fleet: &dyn Fleet) -> Vec<Violation> {
         let mut violations = Vec::new();
-        self.call_roll(fleet);
+        self.find_started(fleet);
         self.count_majority(now, fleet);
         let bytecode = self.code.program().bytecode();
-        for ((index, property), docket) in bytecode
+        for ((index, property), history) in bytecode
             .properties
             .iter()
             .enumerate()
-            .zip(&mut self.dockets)
+            .zip(&mut self.histories)
         {
-            let mut hearing = Hearing {
-                court: Court {
+            let mut evaluation = Evaluation {
+                host: PropertyHost {
                     code: &self.code,
                     fleet,
                     now,
@@ -104,15 +104,15 @@ impl Judge {
                 versions: &self.versions,
                 property,
                 index,
-                docket,
+                history,
                 violations: &mut violations,
             };
-            hearing.run();
+            evaluation.run();
         }
         violations
     }
 
-    /// Sees whether a majority of the robots is there.
+    /// Checks whether a majority of the robots is up.
     fn count_majority(&mut self, now: Time, fleet: &dyn Fleet) {
         for &robot in fleet.robots() {
             if !fleet.is_up(robot) {
@@ -124,8 +124,8 @@ impl Judge {
         self.lost_majority |= !self.down.is_empty() && 2 * self.down.len() >= fleet.robots().len();
     }
 
-    /// Sees who has started, and what states there are.
-    fn call_roll(&mut self, fleet: &dyn Fleet) {
+    /// Finds the robots that have started, and their states.
+    fn find_started(&mut self, fleet: &dyn Fleet) {
         let robots = fleet.robots().iter().copied();
         let started = || {
             robots
@@ -134,8 +134,8 @@ impl Judge {
         };
         if !started().eq(self.roster.iter().copied()) {
             let before = core::mem::replace(&mut self.roster, started().collect());
-            for docket in &mut self.dockets {
-                docket.rearrange(&before, &self.roster);
+            for history in &mut self.histories {
+                history.rearrange(&before, &self.roster);
             }
         }
         self.versions.clear();
@@ -144,43 +144,43 @@ impl Judge {
             .extend(versions.map(|version| version.unwrap_or(UNKNOWN)));
     }
 
-    /// How often a property was false of some robots and that was excused, by reason.
+    /// How often a property was false for some robots and excused, by reason.
     pub fn excused(&self, property: usize) -> impl Iterator<Item = (Excuse, u64)> + '_ {
-        let dockets = self.dockets.get(property).into_iter();
-        dockets.flat_map(|docket| {
-            docket
+        let histories = self.histories.get(property).into_iter();
+        histories.flat_map(|history| {
+            history
                 .excused
                 .iter()
                 .map(|(excuse, count)| (*excuse, *count))
         })
     }
 
-    /// How a property stands, by its place among [`Judge::properties`].
+    /// The status of a property, by its index in [`Judge::properties`].
     pub fn standing(&self, property: usize) -> Standing {
-        let Some(docket) = self.dockets.get(property) else {
+        let Some(history) = self.histories.get(property) else {
             return Standing::Holds;
         };
         let claim = self.properties().get(property).map(|p| p.claim);
         let is_open = match claim {
-            Some(Claim::Eventually { .. }) => docket.lacks || !docket.judged,
-            _ => !docket.waiting.is_empty(),
+            Some(Claim::Eventually { .. }) => history.lacks || !history.judged,
+            _ => !history.waiting.is_empty(),
         };
-        match (docket.violated.is_empty(), is_open) {
+        match (history.violated.is_empty(), is_open) {
             (false, _) => Standing::Violated,
             (true, true) => Standing::Open,
             (true, false) => Standing::Holds,
         }
     }
 
-    /// How a property stands for one row of robots.
+    /// The status of a property for one row of robots.
     pub fn standing_of(&self, property: usize, robots: &[RobotId]) -> Standing {
         let claim = self.properties().get(property).map(|p| p.claim);
-        match self.dockets.get(property) {
-            Some(docket) if docket.violated.contains(robots) => Standing::Violated,
-            Some(docket) if docket.waiting.contains_key(robots) => Standing::Open,
-            Some(docket)
+        match self.histories.get(property) {
+            Some(history) if history.violated.contains(robots) => Standing::Violated,
+            Some(history) if history.waiting.contains_key(robots) => Standing::Open,
+            Some(history)
                 if matches!(claim, Some(Claim::Eventually { .. }))
-                    && !docket.settled.contains(robots) =>
+                    && !history.settled.contains(robots) =>
             {
                 Standing::Open
             }
@@ -189,7 +189,8 @@ impl Judge {
     }
 }
 
-/// Robots that are down are owed nothing, and what is to come is not owed to one that a wreck keeps from its target.
+/// The robots for which a property is judged. Robots that are down are not judged, and no eventual condition is
+/// demanded of a robot whose target is blocked by a wreck.
 fn counted(property: &Property) -> Counted {
     match property.claim {
         _ if property.is_despite_crashes => Counted::All,

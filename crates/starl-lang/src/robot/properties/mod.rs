@@ -1,7 +1,7 @@
-//! What a program claims of itself, judged on the true state of affairs.
+//! Judges the properties of a program on the true state of the fleet.
 //!
-//! A [`Judge`] is shown the fleet again and again, as often as its state changes, and says what does
-//! not hold. It knows no simulator: a [`Fleet`] is whatever can tell the robots' variables and poses.
+//! A [`Judge`] is shown the fleet whenever its state changes, and returns the violations. It does not depend on a
+//! simulator: a [`Fleet`] is any source of the robots' variables and poses.
 //!
 //! Meaning, with the moments at which the judge is shown the fleet for time:
 //! - `always p` holds if p is true at every moment;
@@ -10,19 +10,18 @@
 //! - `always p leads_to q within d` if for each moment at which p is true there is one, the same or a
 //!   later one but by no more than d, at which q is true.
 //!
-//! Faults are allowed for, unless the property says otherwise: times count from the last fault too; robots that are
-//! down do not count, nor where something is to come those that a wreck keeps from their target; variables are not
-//! judged in the time after a fault has overwritten some ([`RECOVERY`]); and nothing is judged where what the property
-//! assumes is not so.
+//! Faults are excused unless the property says otherwise. Deadlines count from the last fault. Robots that are down are
+//! not judged; a robot whose target is blocked by a wreck does not have to reach it. Variables are not judged for a
+//! time after a fault has overwritten some ([`RECOVERY`]). A property is not judged while its assumption does not hold.
 //!
-//! Without `within` nothing is ever too late, so that what has not come stays open. A property about
-//! each robot, each two robots and so on is judged for each such row of robots by itself, the rows in
-//! which a robot occurs twice included, and is reported once for each for which it does not hold.
-//! Robots count from when their programs have started.
+//! Without `within` there is no deadline, so that a condition that has not become true stays open. A property of each
+//! robot, each pair of robots and so on is judged for each such tuple separately, tuples with a repeated robot
+//! included, and is reported once for each tuple that violates it. A robot is judged from the moment its program has
+//! started.
 
 mod condition;
-mod docket;
-mod hearing;
+mod evaluation;
+mod history;
 mod judge;
 mod observables;
 mod violation;
@@ -36,21 +35,21 @@ use crate::machine::State;
 use starl_core::motion::Obstacles;
 use starl_core::{Duration, Point, Pose, RobotId, WayPoint};
 
-/// Why a property may be false.
+/// The reason for which a false property is excused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Excuse {
-    /// A robot is down, or one that is down keeps it from its target.
+    /// A robot is down, or a wreck keeps it from its target.
     Down,
     /// A fault has just overwritten variables.
     Corruption,
-    /// A fault came so shortly before that the time since is not up.
+    /// A fault was so recent that the time since has not passed.
     Recovery,
-    /// The property assumes something that is not so.
+    /// The property's assumption is false.
     Assumption,
 }
 
-/// So long after a fault has overwritten variables a property of them is not judged, unless it says otherwise: each
-/// robot is activated meanwhile, finds that a check is false, and starts again.
+/// For this time after a fault has overwritten variables, a property of them is not judged, unless it says otherwise.
+/// Meanwhile each robot is activated, finds that an invariant of its variables is false, and restarts.
 pub const RECOVERY: Duration = Duration::from_seconds(1);
 
 /// The true state of robots that run a program.
@@ -58,12 +57,12 @@ pub trait Fleet {
     /// The robots that run the program, in ascending order.
     fn robots(&self) -> &[RobotId];
 
-    /// The variables of a robot; of one that is down what they were last. None if it has not started,
-    /// or does not run the program.
+    /// The variables of a robot; for one that is down, its last variables. None if it has not started or does not run
+    /// the program.
     fn state_of(&self, robot: RobotId) -> Option<&State>;
 
-    /// A number that is another one whenever a robot's variables have other values, if there is such a
-    /// number: robots of whom nothing has changed need not be judged anew.
+    /// A number that changes whenever the robot's variables change, if there is one: a robot whose number is unchanged
+    /// need not be judged again.
     fn version(&self, robot: RobotId) -> Option<u64> {
         let _ = robot;
         None
@@ -81,18 +80,17 @@ pub trait Fleet {
     /// Whether a robot is there and has not crashed.
     fn is_up(&self, robot: RobotId) -> bool;
 
-    /// How long it is since the start and since the last fault began or was mended; for ever where that is not known.
+    /// The time since the latest of the start and the last beginning or end of a fault; unlimited if unknown.
     fn undisturbed(&self) -> Duration {
         Duration(u64::MAX)
     }
 
-    /// How long it is since the start and since a fault last overwrote the state of robots; for ever where that is not
-    /// known.
+    /// The time since the start or since a fault last overwrote the state of robots; unlimited if unknown.
     fn uncorrupted(&self) -> Duration {
         Duration(u64::MAX)
     }
 
-    /// Where a robot's motion leads, or led last, if that is known.
+    /// The target of a robot's present or last motion, if known.
     fn target(&self, robot: RobotId) -> Option<Point> {
         let _ = robot;
         None
@@ -103,7 +101,7 @@ pub trait Fleet {
         None
     }
 
-    /// The application's way-points, if they are known here.
+    /// The application's waypoints, if known.
     fn way_points(&self) -> Option<&[WayPoint]> {
         None
     }

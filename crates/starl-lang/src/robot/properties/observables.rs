@@ -1,5 +1,4 @@
-//! What properties may ask of the world: true poses and what robots have come to, not what they
-//! believe.
+//! Values of the world that properties can read: true poses and the actual state of robots, not their beliefs.
 
 use super::Fleet;
 use crate::machine::{Host, HostCall, Object, State};
@@ -13,49 +12,49 @@ use core::cell::Cell;
 use starl_core::{Point, Pose, RobotId, Time};
 
 /// The machine's host where properties are judged.
-pub struct Court<'a> {
+pub struct PropertyHost<'a> {
     pub code: &'a Code,
     pub fleet: &'a dyn Fleet,
     pub now: Time,
     /// The robots that have started, in ascending order.
     pub roster: &'a [RobotId],
-    /// Those robots as an object, once it was asked for.
+    /// Those robots as an object, once requested.
     pub all: Option<Object>,
-    /// Values that were made before.
+    /// Cached values.
     pub memo: &'a mut Memo,
-    /// The robot that was asked about last.
+    /// The robot that was read last.
     pub last: Cell<Option<RobotId>>,
-    /// The robot that the row of robots begins with.
+    /// The first robot of the row.
     pub first: Option<RobotId>,
-    /// Which robots a property is about.
+    /// The robots for which the property is judged.
     pub counted: Counted,
     /// Whether more than half of the robots have been up at every moment so far.
     pub has_majority: bool,
-    /// Whether anything else was looked at than this robot's state.
+    /// Whether anything except this robot's state was read.
     pub looked_elsewhere: Cell<bool>,
 }
 
-/// Which of the robots that have started a property is about.
+/// The robots, among those that have started, for which a property is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counted {
     /// All of them.
     All,
     /// Those that are up.
     Up,
-    /// Those that are up and that no robot which is down keeps from moving or from its target.
+    /// Those that are up and that no wreck keeps from moving or from their target.
     Able,
 }
 
-/// What properties may ask.
+/// A value that properties can read.
 pub struct Observable {
-    /// What it is called, takes and gives.
+    /// Its name, arguments and results.
     pub signature: Signature,
-    /// What it does.
+    /// The function that computes it.
     pub run: Run,
 }
 
-/// How an observable is observed.
-pub type Run = fn(&mut Court<'_>, &mut HostCall<'_>) -> Called;
+/// The function of an observable.
+pub type Run = fn(&mut PropertyHost<'_>, &mut HostCall<'_>) -> Called;
 
 const fn observable(
     name: &'static str,
@@ -79,60 +78,60 @@ const A_ROBOT: &[Shape] = &[Shape::Robot];
 pub static OBSERVABLES: &[Observable] = &[
     observable("robot.all", &[], Shape::List(&Shape::Robot), all),
     observable("robot.all", &[], Shape::Set(&Shape::Robot), all),
-    observable("robot.position", A_ROBOT, Shape::Point, |court, call| {
-        let pose = court.pose(call)?;
+    observable("robot.position", A_ROBOT, Shape::Point, |host, call| {
+        let pose = host.pose(call)?;
         call.set_point(0, pose.position);
         Ok(0)
     }),
-    observable("robot.heading", A_ROBOT, Shape::Float, |court, call| {
-        let pose = court.pose(call)?;
+    observable("robot.heading", A_ROBOT, Shape::Float, |host, call| {
+        let pose = host.pose(call)?;
         call.set_float(0, pose.yaw);
         Ok(0)
     }),
-    observable("robot.velocity", A_ROBOT, Shape::Point, |court, call| {
-        let robot = court.asked(call);
-        let velocity = court.fleet.velocity(robot);
+    observable("robot.velocity", A_ROBOT, Shape::Point, |host, call| {
+        let robot = host.asked(call);
+        let velocity = host.fleet.velocity(robot);
         call.set_point(0, velocity.ok_or_else(|| unknown(robot))?);
         Ok(0)
     }),
-    observable("robot.finished", A_ROBOT, Shape::Bool, |court, call| {
-        let robot = court.asked(call);
-        call.set_bool(0, court.fleet.has_finished(robot));
+    observable("robot.finished", A_ROBOT, Shape::Bool, |host, call| {
+        let robot = host.asked(call);
+        call.set_bool(0, host.fleet.has_finished(robot));
         Ok(0)
     }),
-    observable("robot.up", A_ROBOT, Shape::Bool, |court, call| {
-        let robot = court.asked(call);
-        call.set_bool(0, court.fleet.is_up(robot));
+    observable("robot.up", A_ROBOT, Shape::Bool, |host, call| {
+        let robot = host.asked(call);
+        call.set_bool(0, host.fleet.is_up(robot));
         Ok(0)
     }),
-    observable("majority", &[], Shape::Bool, |court, call| {
-        call.set_bool(0, court.has_majority);
+    observable("majority", &[], Shape::Bool, |host, call| {
+        call.set_bool(0, host.has_majority);
         Ok(0)
     }),
-    observable("crashed", &[], Shape::Int, |court, call| {
-        let down = court
+    observable("crashed", &[], Shape::Int, |host, call| {
+        let down = host
             .roster
             .iter()
-            .filter(|&&robot| !court.fleet.is_up(robot) || court.is_pinned(robot));
+            .filter(|&&robot| !host.fleet.is_up(robot) || host.is_pinned(robot));
         call.set_int(0, down.count() as i64);
         Ok(0)
     }),
-    observable("now", &[], Shape::Time, |court, call| {
-        call.set_nanoseconds(0, court.now.0);
+    observable("now", &[], Shape::Time, |host, call| {
+        call.set_nanoseconds(0, host.now.0);
         Ok(0)
     }),
-    observable("undisturbed", &[], Shape::Duration, |court, call| {
-        call.set_nanoseconds(0, court.fleet.undisturbed().0);
+    observable("undisturbed", &[], Shape::Duration, |host, call| {
+        call.set_nanoseconds(0, host.fleet.undisturbed().0);
         Ok(0)
     }),
-    observable("uncorrupted", &[], Shape::Duration, |court, call| {
-        call.set_nanoseconds(0, court.fleet.uncorrupted().0);
+    observable("uncorrupted", &[], Shape::Duration, |host, call| {
+        call.set_nanoseconds(0, host.fleet.uncorrupted().0);
         Ok(0)
     }),
-    observable("peers", &[], Shape::Set(&Shape::Robot), |court, call| {
-        let everyone = court.fleet.everyone();
-        let everyone = everyone.unwrap_or_else(|| court.fleet.robots());
-        call.set_object(0, court.memo.fleet(everyone));
+    observable("peers", &[], Shape::Set(&Shape::Robot), |host, call| {
+        let everyone = host.fleet.everyone();
+        let everyone = everyone.unwrap_or_else(|| host.fleet.robots());
+        call.set_object(0, host.memo.fleet(everyone));
         Ok(0)
     }),
     observable("robot_name", A_ROBOT, Shape::Text, |_, call| {
@@ -144,9 +143,9 @@ pub static OBSERVABLES: &[Observable] = &[
         "way_points",
         &[],
         Shape::List(&Shape::Point),
-        |court, call| {
-            let way_points = court.fleet.way_points().ok_or(NOT_KNOWN)?;
-            call.set_object(0, court.memo.way_points(way_points));
+        |host, call| {
+            let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
+            call.set_object(0, host.memo.way_points(way_points));
             Ok(0)
         },
     ),
@@ -154,8 +153,8 @@ pub static OBSERVABLES: &[Observable] = &[
         "way_point",
         &[Shape::Text],
         Shape::Optional(&Shape::Point),
-        |court, call| {
-            let way_points = court.fleet.way_points().ok_or(NOT_KNOWN)?;
+        |host, call| {
+            let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
             Ok(way_point(way_points, call))
         },
     ),
@@ -163,23 +162,24 @@ pub static OBSERVABLES: &[Observable] = &[
         "way_point_group",
         &[Shape::Int],
         Shape::List(&Shape::Point),
-        |court, call| {
-            let way_points = court.fleet.way_points().ok_or(NOT_KNOWN)?;
+        |host, call| {
+            let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
             Ok(way_point_group(way_points, call))
         },
     ),
-    observable("obstacles", &[], Shape::Obstacles, |court, call| {
-        let obstacles = court.fleet.obstacles().ok_or(NOT_KNOWN)?;
+    observable("obstacles", &[], Shape::Obstacles, |host, call| {
+        let obstacles = host.fleet.obstacles().ok_or(NOT_KNOWN)?;
         call.set_object(0, obstacles.into());
         Ok(0)
     }),
 ];
 
-/// A robot does not get to a target that is nearer than this to a robot which is down, metres: somewhat less than two
-/// bodies of the usual size side by side.
+/// The distance, in metres, within which a wreck blocks a robot's target: somewhat less than two bodies of the usual
+/// size side by side.
 const BLOCKED: f64 = 0.6;
 
-/// A robot cannot move if another that is down is nearer than this, metres: a wreck fell on it, or it drove against it.
+/// The distance, in metres, within which a wreck keeps a robot from moving: the wreck fell on it, or it drove against
+/// the wreck.
 const PINNED: f64 = 0.5;
 
 const NOT_KNOWN: &str = "this is not known where properties are judged";
@@ -188,7 +188,7 @@ fn unknown(robot: RobotId) -> Cow<'static, str> {
     alloc::format!("there is no robot {robot}").into()
 }
 
-impl Court<'_> {
+impl PropertyHost<'_> {
     /// The robot that a call is about.
     fn asked(&self, call: &HostCall<'_>) -> RobotId {
         let robot = Arguments::of(call).robot();
@@ -196,7 +196,7 @@ impl Court<'_> {
         robot
     }
 
-    /// Whether the property is about a robot.
+    /// Whether the property is judged for a robot.
     pub fn counts(&self, robot: RobotId) -> bool {
         match self.counted {
             Counted::All => true,
@@ -207,13 +207,13 @@ impl Court<'_> {
         }
     }
 
-    /// Whether `exists` and `forall` inside a property run over a robot. A robot that cannot get to its target still
-    /// stands where it stands.
+    /// Whether `exists` and `forall` inside a property range over a robot. They include a robot that cannot get to its
+    /// target.
     fn exists(&self, robot: RobotId) -> bool {
         self.counted == Counted::All || self.fleet.is_up(robot)
     }
 
-    /// Whether a robot that is down lies where the robot is to go.
+    /// Whether a wreck blocks the robot's target.
     fn is_blocked(&self, robot: RobotId) -> bool {
         let target = self.fleet.target(robot);
         target.is_some_and(|target| {
@@ -232,7 +232,7 @@ impl Court<'_> {
         })
     }
 
-    /// Whether some other robot that is down lies at such a place.
+    /// Whether the position of some other robot that is down satisfies the condition.
     fn is_wreck_near(&self, robot: RobotId, is_near: impl Fn(Point) -> bool) -> bool {
         let others = self.roster.iter().filter(|other| **other != robot);
         let mut wrecks = others.filter(|other| !self.fleet.is_up(**other));
@@ -248,20 +248,20 @@ impl Court<'_> {
     }
 }
 
-fn all(court: &mut Court<'_>, call: &mut HostCall<'_>) -> Called {
-    if court.all.is_none() {
-        let counted = court
+fn all(host: &mut PropertyHost<'_>, call: &mut HostCall<'_>) -> Called {
+    if host.all.is_none() {
+        let counted = host
             .roster
             .iter()
             .copied()
-            .filter(|robot| court.exists(*robot));
-        court.all = Some(robots(counted));
+            .filter(|robot| host.exists(*robot));
+        host.all = Some(robots(counted));
     }
-    call.set_object(0, court.all.clone().unwrap_or_default());
+    call.set_object(0, host.all.clone().unwrap_or_default());
     Ok(0)
 }
 
-impl Host for Court<'_> {
+impl Host for PropertyHost<'_> {
     fn call(&mut self, function: u32, call: &mut HostCall<'_>) -> Called {
         self.looked_elsewhere.set(true);
         let joint = self.code.joint(function);

@@ -1,59 +1,58 @@
-//! What is said of a property that does not hold.
+//! Violations of properties.
 
-use super::observables::Court;
+use super::observables::PropertyHost;
 use crate::machine::{Bytecode, Claim, Instruction, Layout, Property, Value};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 use starl_core::{Duration, Point, RobotId, Time};
 
-/// A property that does not hold, and the state of the robots concerned.
+/// A violated property, with the state of the robots concerned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violation {
-    /// Which property, by its place among the program's.
+    /// The property's index in the program.
     pub property: usize,
     /// Its name.
     pub name: String,
-    /// Where it is written, e.g. `race.starl:40:1`; none of bytecode that was written by hand.
+    /// Its position in the source, e.g. `race.starl:40:1`; none for bytecode written by hand.
     pub place: Option<String>,
-    /// When it was seen.
+    /// The time of the violation.
     pub at: Time,
-    /// The robots that it does not hold for; none if it is about the fleet.
+    /// The robots that violate it; none if it is about the fleet.
     pub robots: Vec<RobotId>,
-    /// In what way it does not hold.
+    /// The reason.
     pub reason: Reason,
-    /// What those robots' state is; for a property about the fleet that of the robot which was looked
-    /// at last.
+    /// The state of those robots; for a property of the fleet, the state of the robot that was evaluated last.
     pub states: Vec<Seen>,
 }
 
-/// In what way a property does not hold.
+/// The reason of a violation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// What is always true is not.
+    /// An invariant is false.
     Untrue,
-    /// What was to come has not come in time.
+    /// An eventual condition has missed its deadline.
     NotInTime {
-        /// How long after the start it was to have come at the latest.
+        /// The deadline, counted from the start.
         within: Duration,
     },
-    /// What was to follow has not followed in time.
+    /// A consequence has missed its deadline.
     NotFollowed {
-        /// When that was true which it is to follow.
+        /// The time at which the cause was true.
         since: Time,
-        /// How much later it was to have followed at the latest.
+        /// The deadline, counted from the cause.
         within: Duration,
     },
-    /// Judging it failed; the text says where and why.
+    /// Evaluating it failed; the text says where and why.
     Undecided(String),
 }
 
-/// The state of a robot as it was seen.
+/// The state of a robot at the violation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
-    /// Which robot.
+    /// The robot.
     pub robot: RobotId,
-    /// Its true position, metres, if it is known.
+    /// Its true position in metres, if known.
     pub position: Option<Point>,
     /// The variables that the property reads, with their values; all variables, if it reads none.
     pub variables: Vec<(String, Value)>,
@@ -61,17 +60,17 @@ pub struct Seen {
 
 impl Violation {
     pub(super) fn new(
-        court: &Court<'_>,
+        host: &PropertyHost<'_>,
         (index, property): (usize, &Property),
         row: &[RobotId],
         reason: Reason,
         reads: &[usize],
     ) -> Violation {
-        let program = court.code.program();
+        let program = host.code.program();
         let functions = &program.bytecode().functions;
         let entry = functions.get(first_function(property.claim) as usize);
         let mut concerned: Vec<RobotId> = match row {
-            [] => court.last.get().into_iter().collect(),
+            [] => host.last.get().into_iter().collect(),
             _ => row.into(),
         };
         concerned.dedup();
@@ -79,21 +78,21 @@ impl Violation {
             property: index,
             name: property.name.clone(),
             place: entry.and_then(|function| program.source(function.entry)),
-            at: court.now,
+            at: host.now,
             robots: row.into(),
             reason,
             states: concerned
                 .into_iter()
-                .map(|robot| Seen::of(court, robot, reads))
+                .map(|robot| Seen::of(host, robot, reads))
                 .collect(),
         }
     }
 }
 
 impl Seen {
-    fn of(court: &Court<'_>, robot: RobotId, reads: &[usize]) -> Seen {
-        let program = court.code.program();
-        let state = court.fleet.state_of(robot);
+    fn of(host: &PropertyHost<'_>, robot: RobotId, reads: &[usize]) -> Seen {
+        let program = host.code.program();
+        let state = host.fleet.state_of(robot);
         let variables = state.into_iter().flat_map(|state| program.values(state));
         let read = |index: &usize| reads.is_empty() || reads.contains(index);
         let names: Vec<&str> = program
@@ -106,7 +105,7 @@ impl Seen {
             .collect();
         Seen {
             robot,
-            position: court.fleet.pose(robot).map(|pose| pose.position),
+            position: host.fleet.pose(robot).map(|pose| pose.position),
             variables: variables
                 .filter(|(name, _)| names.contains(name))
                 .map(|(name, value)| (name.into(), value))
@@ -124,7 +123,7 @@ fn first_function(claim: Claim) -> u32 {
     }
 }
 
-/// The variables that a claim reads, by their places in the program.
+/// The variables that a claim reads, as indices in the program.
 pub(super) fn read_variables(bytecode: &Bytecode, claim: Claim) -> Vec<usize> {
     let second = match claim {
         Claim::LeadsTo { consequence, .. } => Some(consequence),
@@ -166,9 +165,9 @@ impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.reason {
             Reason::Untrue => f.write_str("is not true")?,
-            Reason::NotInTime { within } => write!(f, "has not come true within {within}")?,
+            Reason::NotInTime { within } => write!(f, "has not become true within {within}")?,
             Reason::NotFollowed { since, within } => {
-                write!(f, "what is to follow within {within} has not since {since}")?;
+                write!(f, "the consequence is not true within {within} of {since}")?;
             }
             Reason::Undecided(text) => write!(f, "cannot be judged: {text}")?,
         }
@@ -181,7 +180,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// So many characters of a value are shown.
+/// The most characters shown of a value.
 const LONGEST_VALUE: usize = 160;
 
 impl fmt::Display for Seen {

@@ -21,7 +21,7 @@ impl ListExpression {
         children(&self.0)
     }
 
-    /// What it is built from, if it is a comprehension.
+    /// The clause of a comprehension.
     #[must_use]
     pub fn comprehension(&self) -> Option<ComprehensionClause> {
         child(&self.0)
@@ -45,7 +45,7 @@ impl BraceExpression {
         children(&self.0)
     }
 
-    /// What it is built from, if it is a comprehension.
+    /// The clause of a comprehension.
     #[must_use]
     pub fn comprehension(&self) -> Option<ComprehensionClause> {
         child(&self.0)
@@ -74,7 +74,7 @@ impl ComprehensionClause {
             .flat_map(|variables| variables.names())
     }
 
-    /// What it runs over.
+    /// The collection that it iterates over.
     #[must_use]
     pub fn collection(&self) -> Option<Expression> {
         after(&token(&self.0, SyntaxKind::InKeyword)?)

@@ -39,7 +39,7 @@ nodes! {
     InitDeclaration
     /// `name()` with `pre` and `eff`
     ActionDeclaration
-    /// What is indented under an action's name
+    /// The clauses under an action's name
     ActionBody
     /// `pre condition` or `pre condition for time`
     PreClause
@@ -55,7 +55,7 @@ nodes! {
     HandlerParameterList
     /// `role name` and declarations
     RoleDeclaration
-    /// What is indented under a role's name
+    /// The declarations under a role's name
     RoleBody
     /// `check condition`
     CheckDeclaration
@@ -127,7 +127,7 @@ impl VariableDeclaration {
 }
 
 impl SharedDeclaration {
-    /// Whether each robot writes an element of its own (`allread`), rather than all the same variable.
+    /// Whether each robot writes its own element (`allread`), instead of one shared variable.
     #[must_use]
     pub fn is_single_writer(&self) -> bool {
         let first = tokens(&self.0).next();
@@ -140,7 +140,7 @@ impl SharedDeclaration {
         token(&child::<Consistency>(&self.0)?.0, SyntaxKind::Identifier)
     }
 
-    /// What its elements are found by: `RobotId`.
+    /// The type of its index: `RobotId`.
     #[must_use]
     pub fn index(&self) -> Option<Type> {
         child::<TypeArguments>(&self.0)?.types().next()
@@ -260,7 +260,7 @@ impl EventPath {
 }
 
 impl RoleDeclaration {
-    /// What is declared in it.
+    /// Its declarations.
     pub fn items(&self) -> impl Iterator<Item = Item> + use<> {
         child::<RoleBody>(&self.0)
             .into_iter()
@@ -269,7 +269,7 @@ impl RoleDeclaration {
 }
 
 impl CheckDeclaration {
-    /// What must be true.
+    /// The condition.
     #[must_use]
     pub fn condition(&self) -> Option<Expression> {
         child(&self.0)
@@ -277,13 +277,13 @@ impl CheckDeclaration {
 }
 
 impl PropertyDeclaration {
-    /// Whether it must come true some time, rather than be true always.
+    /// Whether it must become true at some time, instead of being always true.
     #[must_use]
     pub fn is_eventual(&self) -> bool {
         self.word() == "eventually"
     }
 
-    /// Whether it must come true some time and stay so.
+    /// Whether it must become true at some time and stay true.
     #[must_use]
     pub fn is_eventually_always(&self) -> bool {
         self.is_eventual() && word(&self.0, "always").is_some()
@@ -298,13 +298,13 @@ impl PropertyDeclaration {
             .unwrap_or_default()
     }
 
-    /// What must be true, or with [`Self::consequence`] what leads to it.
+    /// The condition; with [`Self::consequence`], the cause.
     #[must_use]
     pub fn condition(&self) -> Option<Expression> {
         child(&self.0)
     }
 
-    /// What must be true after the condition was, if `leads_to` is written.
+    /// The condition after `leads_to`, if any.
     #[must_use]
     pub fn consequence(&self) -> Option<Expression> {
         after(&word(&self.0, "leads_to")?)
@@ -328,7 +328,7 @@ impl PropertyDeclaration {
         after(&word(&self.0, "recovers")?)
     }
 
-    /// What has to hold for it to be judged, if `assuming` is written.
+    /// The condition after `assuming`, if any.
     #[must_use]
     pub fn assumption(&self) -> Option<Expression> {
         after(&word(&self.0, "assuming")?)

@@ -118,7 +118,7 @@ impl NameExpression {
 }
 
 impl ParenthesizedExpression {
-    /// What stands in the brackets.
+    /// The expression in the brackets.
     #[must_use]
     pub fn inner(&self) -> Option<Expression> {
         child(&self.0)
@@ -126,7 +126,7 @@ impl ParenthesizedExpression {
 }
 
 impl FieldExpression {
-    /// What has the field.
+    /// The value that has the field.
     #[must_use]
     pub fn base(&self) -> Option<Expression> {
         child(&self.0)
@@ -140,13 +140,13 @@ impl FieldExpression {
 }
 
 impl CallExpression {
-    /// What is called.
+    /// The called function or method.
     #[must_use]
     pub fn callee(&self) -> Option<Expression> {
         child(&self.0)
     }
 
-    /// What it is called with.
+    /// The arguments.
     pub fn arguments(&self) -> impl Iterator<Item = Argument> + use<> {
         child::<ArgumentList>(&self.0)
             .into_iter()
@@ -202,7 +202,7 @@ impl PrefixExpression {
         }
     }
 
-    /// What it applies to.
+    /// The operand.
     #[must_use]
     pub fn operand(&self) -> Option<Expression> {
         child(&self.0)
@@ -255,7 +255,7 @@ impl SomeExpression {
 }
 
 impl ConditionalExpression {
-    /// What decides.
+    /// The condition.
     #[must_use]
     pub fn condition(&self) -> Option<Expression> {
         after(&token(&self.0, SyntaxKind::IfKeyword)?)

@@ -1,4 +1,4 @@
-//! What a file is made of.
+//! The parts of a file.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -76,7 +76,7 @@ named! {
 
 /// Something that comments with three slashes above it may document.
 pub trait Documented: AstNode {
-    /// What the comments above it say, a line each, without the slashes; empty if there are none.
+    /// The comments above it, one per line, without the slashes; empty if there are none.
     fn documentation(&self) -> String {
         let lines: Vec<String> = comments(self.syntax())
             .map(|token| text_of(&token))

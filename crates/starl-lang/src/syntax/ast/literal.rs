@@ -10,10 +10,10 @@ nodes! {
     LiteralExpression
 }
 
-/// What a literal is worth.
+/// The value of a literal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Literal {
-    /// An Int; 2^63, which is no Int, only where `-` stands before it.
+    /// An Int; 2^63, which is not an Int, only after `-`.
     Int(u64),
     /// A Float; a length in metres, an angle in radians.
     Float(f64),
@@ -36,7 +36,7 @@ impl LiteralExpression {
         tokens(&self.0).next()
     }
 
-    /// What it is worth.
+    /// Its value.
     #[must_use]
     pub fn value(&self) -> Literal {
         let Some(token) = self.token() else {

@@ -1,4 +1,4 @@
-//! What all types of nodes have in common.
+//! Common code of all node types.
 
 use alloc::boxed::Box;
 
@@ -115,7 +115,7 @@ pub(super) fn children<N: AstNode>(node: &SyntaxNode) -> impl Iterator<Item = N>
     node.children().filter_map(N::cast)
 }
 
-/// The same, also those in what was not understood as a whole.
+/// The same, including nodes within errors.
 pub(super) fn children_through_errors<N: AstNode + 'static>(
     node: &SyntaxNode,
 ) -> Box<dyn Iterator<Item = N>> {

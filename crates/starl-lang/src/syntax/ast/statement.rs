@@ -83,13 +83,13 @@ impl AssignStatement {
         AssignOperator::of(self.operator_token()?.kind())
     }
 
-    /// What is assigned to.
+    /// The target of the assignment.
     #[must_use]
     pub fn target(&self) -> Option<Expression> {
         before(&self.operator_token()?)
     }
 
-    /// What is assigned.
+    /// The assigned value.
     #[must_use]
     pub fn value(&self) -> Option<Expression> {
         after(&self.operator_token()?)
@@ -116,7 +116,7 @@ impl IfBranch {
         child(&self.0)
     }
 
-    /// What is done then.
+    /// The statements of the branch.
     #[must_use]
     pub fn body(&self) -> Option<Block> {
         child(&self.0)
@@ -124,7 +124,7 @@ impl IfBranch {
 }
 
 impl ElseBranch {
-    /// What is done then.
+    /// The statements of the branch.
     #[must_use]
     pub fn body(&self) -> Option<Block> {
         child(&self.0)
@@ -139,13 +139,13 @@ impl ForStatement {
             .flat_map(|variables| variables.names())
     }
 
-    /// What it runs over.
+    /// The collection that it iterates over.
     #[must_use]
     pub fn collection(&self) -> Option<Expression> {
         child(&self.0)
     }
 
-    /// What is done for each element.
+    /// The statements for each element.
     #[must_use]
     pub fn body(&self) -> Option<Block> {
         child(&self.0)
@@ -160,7 +160,7 @@ impl LoopVariables {
 }
 
 impl ReturnStatement {
-    /// What is returned, if anything.
+    /// The returned value, if any.
     #[must_use]
     pub fn value(&self) -> Option<Expression> {
         child(&self.0)

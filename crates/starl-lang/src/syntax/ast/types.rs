@@ -33,7 +33,7 @@ impl NamedType {
         tokens(&self.0).filter(|token| token.kind() == SyntaxKind::Identifier)
     }
 
-    /// What stands in the brackets after it.
+    /// The type arguments in the brackets.
     pub fn arguments(&self) -> impl Iterator<Item = Type> + use<> {
         child::<TypeArguments>(&self.0)
             .into_iter()

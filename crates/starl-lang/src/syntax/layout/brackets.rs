@@ -1,8 +1,7 @@
-//! Which brackets belong together.
+//! Matches brackets.
 //!
-//! A bracket that is never closed must not swallow the rest of the program: it is taken as closed where
-//! a line starts with a word that cannot stand in brackets, and then it does not hold its line open at
-//! all.
+//! A bracket that is never closed must not swallow the rest of the program: it counts as closed where a line starts
+//! with a word that is not allowed in brackets, and then its line is not continued.
 
 use alloc::format;
 use alloc::vec;

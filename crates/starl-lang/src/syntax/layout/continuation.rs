@@ -1,12 +1,11 @@
-//! Lines that go on in the next one, if that is indented deeper than the line in which they began: a line
-//! that ends in a binary operator, `and`, `or` or a comma, and every line of a property.
+//! Lines that continue in the next one, if that is indented deeper than the line in which they began: a line that ends
+//! in a binary operator, `and`, `or` or a comma, and every line of a property.
 
 use super::super::SyntaxKind::*;
 use super::{Lexeme, Tokens, next_line};
 
-/// The first token of the line in which the line goes on that ends at the token `newline`, if it does,
-/// given what was seen of it, its
-/// first token and its indentation.
+/// The first token of the continuation of the line that ends at the token `newline`, if there is one. The arguments
+/// describe the line: its tokens so far, its first token and its indentation.
 pub(super) fn rest(
     text: &str,
     tokens: &Tokens,

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::super::SyntaxKind::*;
 use super::super::lexer::Tokens;
 use super::{Lexeme, Line};
-use crate::diagnostic::{Code, Diagnostic, Edit, Mend, Span};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, Span};
 
 /// A tab goes to the next multiple of this many columns.
 const TAB: u32 = 4;
@@ -82,7 +82,7 @@ fn after(lexeme: &Lexeme) -> usize {
 
 /// Where a block ends: before the first comment between `from` and `to` that is indented less than it.
 fn end_of_block(text: &str, tokens: &Tokens, from: usize, to: usize, level: u32) -> usize {
-    // What is still in the last line of the block belongs to it.
+    // Tokens on the last line of the block belong to it.
     let starts_line = from == 0 || tokens.kind(from - 1) == Newline;
     let (mut end, mut column, mut inside) = (from, 0, !starts_line);
     for index in from..to {
@@ -121,7 +121,7 @@ fn uneven(text: &str, tokens: &Tokens, line: &Line, column: u32) -> Diagnostic {
     )
 }
 
-/// Reports the tabs in indentations: once, with a mend for all.
+/// Reports the tabs in indentations: once, with a fix for all.
 pub(super) fn report_tabs(text: &str, tokens: &Tokens, diagnostics: &mut Vec<Diagnostic>) {
     let mut edits = Vec::new();
     let mut line_starts = true;
@@ -138,9 +138,9 @@ pub(super) fn report_tabs(text: &str, tokens: &Tokens, diagnostics: &mut Vec<Dia
         1 => "this line is indented with a tab".into(),
         count => format!("{count} lines are indented with tabs; this is the first"),
     };
-    let mend = Mend {
+    let fix = Fix {
         message: "indent with 4 spaces for each tab".into(),
         edits: edits.clone(),
     };
-    diagnostics.push(Diagnostic::new(Code::TabIndentation, first.span, message).mend(mend));
+    diagnostics.push(Diagnostic::new(Code::TabIndentation, first.span, message).fix(fix));
 }

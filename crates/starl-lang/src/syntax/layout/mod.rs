@@ -1,8 +1,8 @@
-//! Which line ends matter, and which lines open and close blocks.
+//! Finds the significant line ends, and the begins and ends of blocks.
 //!
-//! The parser sees the tokens without trivia, and between them where a block begins ([`Indent`]) and
-//! ends ([`Dedent`]). Those two have no text; each says before which token it stands, so that a comment
-//! belongs to the block whose indentation it has.
+//! The parser sees the tokens without trivia, and between them where a block begins ([`Indent`]) and ends ([`Dedent`]).
+//! Those two have no text; each refers to the token after it, so that a comment belongs to the block with its
+//! indentation.
 
 mod brackets;
 mod continuation;
@@ -18,7 +18,7 @@ use crate::diagnostic::Diagnostic;
 /// One thing that the parser sees.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lexeme {
-    /// What it is: a token that is no trivia, [`Indent`] or [`Dedent`].
+    /// Its kind: a token other than trivia, [`Indent`] or [`Dedent`].
     pub kind: SyntaxKind,
     /// Which token it is; for the two without text, before which token it stands.
     pub index: u32,
@@ -26,13 +26,13 @@ pub(crate) struct Lexeme {
 
 /// A line of the text that holds a token other than trivia.
 struct Line {
-    /// Its first token that is no trivia.
+    /// Its first token other than trivia.
     first: usize,
     /// Its indentation in characters.
     column: u32,
 }
 
-/// What the parser sees of `tokens`, and what is wrong with indentation and brackets.
+/// The lexemes of `tokens` for the parser, and the problems with indentation and brackets.
 pub(crate) fn arrange(text: &str, tokens: &Tokens) -> (Vec<Lexeme>, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
     indentation::report_tabs(text, tokens, &mut diagnostics);
@@ -52,7 +52,7 @@ pub(crate) fn arrange(text: &str, tokens: &Tokens) -> (Vec<Lexeme>, Vec<Diagnost
             &mut diagnostics,
         );
         next = line.first;
-        // To the end of the line, or of the last of the lines in which it goes on.
+        // To the end of the line, or of the last of the lines in which it continues.
         while next < tokens.len() {
             let kind = tokens.kind(next);
             if kind == Newline && depth == 0 {
@@ -88,8 +88,8 @@ pub(crate) fn arrange(text: &str, tokens: &Tokens) -> (Vec<Lexeme>, Vec<Diagnost
     (lexemes, diagnostics)
 }
 
-/// The next line with a token other than trivia, from the token at `from`, which starts a line. What
-/// comes first in the line gives its indentation, even if that is trivia.
+/// The next line with a token other than trivia, from the token at `from`, which starts a line. The first token in the
+/// line gives its indentation, even if it is trivia.
 fn next_line(text: &str, tokens: &Tokens, from: usize) -> Option<Line> {
     let (mut column, mut indented) = (0, false);
     for index in from..tokens.len() {

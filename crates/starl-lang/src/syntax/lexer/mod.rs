@@ -1,9 +1,8 @@
 //! From text to tokens.
 //!
-//! The tokens cover the text: put together they are it again. Nothing is refused; what is malformed is
-//! a token too, and [`problems`] tells what is wrong with it. Spellings of other languages and of
-//! printed mathematics become the token that was meant (`&&` is an `and`, `≤` a `<=`), so that the
-//! parser need not know them.
+//! The tokens cover the text: concatenated they are the text. No text is rejected; malformed parts are tokens too, and
+//! [`problems`] reports their errors. Spellings of other languages and of printed mathematics become the intended token
+//! (`&&` is an `and`, `≤` a `<=`), so that the parser need not know them.
 
 mod number;
 mod problems;
@@ -30,7 +29,7 @@ impl Tokens {
         self.kinds.len()
     }
 
-    /// What the token is; [`EndOfFile`] after the last.
+    /// The kind of the token; [`EndOfFile`] after the last.
     pub fn kind(&self, index: usize) -> SyntaxKind {
         self.kinds.get(index).copied().unwrap_or(EndOfFile)
     }

@@ -1,4 +1,4 @@
-//! What is wrong with single tokens.
+//! Problems of single tokens.
 
 use alloc::format;
 use alloc::string::String;
@@ -43,7 +43,7 @@ fn unit_names() -> String {
 
 fn letters(name: &str, span: Span) -> Option<Diagnostic> {
     let other = name.chars().find(|character| !character.is_ascii())?;
-    let message = format!("a name cannot hold `{}`", other.escape_debug());
+    let message = format!("a name cannot contain `{}`", other.escape_debug());
     let problem = Diagnostic::new(Code::UnknownCharacter, span, message);
     Some(problem.note("names are made of the letters a to z and A to Z, digits and `_`"))
 }
@@ -127,11 +127,7 @@ fn malformed_string(text: &str, span: Span) -> Diagnostic {
         .and_then(|text| text.strip_suffix('\''))
     {
         let inner = inner.replace("\\'", "'").replace('"', "\\\"");
-        let problem = Diagnostic::new(
-            Code::MalformedString,
-            span,
-            "strings stand in double quotes",
-        );
+        let problem = Diagnostic::new(Code::MalformedString, span, "strings are in double quotes");
         return problem.replace("use double quotes", span, format!("\"{inner}\""));
     }
     Diagnostic::new(
@@ -180,7 +176,7 @@ fn unknown(text: &str, span: Span) -> Diagnostic {
             word("exists"),
         ),
         _ if character.is_whitespace() => {
-            let message = format!("a space that is not one: U+{:04X}", u32::from(character));
+            let message = format!("not a plain space: U+{:04X}", u32::from(character));
             problem(message).replace("write a space", span, " ")
         }
         _ if character.is_control() || character.escape_debug().len() > 1 => problem(format!(
@@ -202,7 +198,7 @@ fn spelling(kind: SyntaxKind, text: &str, span: Span) -> Option<Diagnostic> {
     Some(problem.replace(format!("write `{right}`"), span, apart(right, text, span)))
 }
 
-/// `word` with the spaces that it needs in the place of what `span` marks.
+/// `word` with the spaces that it needs in place of what `span` marks.
 fn apart(word: &str, text: &str, span: Span) -> String {
     let is_part = |character: char| character.is_alphanumeric() || character == '_';
     let before = text[..span.start as usize]

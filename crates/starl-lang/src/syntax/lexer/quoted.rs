@@ -2,8 +2,8 @@
 
 use super::SyntaxKind::{self, *};
 
-/// The string that starts with `quote`, and its length. One that does not end goes to the end of the
-/// line; a single quote that has no partner is no string.
+/// The string that starts with `quote`, and its length. An unterminated string extends to the end of the line; an
+/// unmatched single quote is not a string.
 pub(super) fn quoted(text: &str, quote: char) -> (SyntaxKind, usize) {
     let mut escaped = false;
     for (at, character) in text.char_indices().skip(1) {

@@ -7,7 +7,7 @@ use super::item::name;
 use super::slips::{self, Colon as HeaderColon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*};
 use super::{block, expression, statement};
-use crate::diagnostic::{Edit, Mend};
+use crate::diagnostic::{Edit, Fix};
 
 /// Whether a name with brackets, which is next, is the header of an action: nothing is between the
 /// brackets, or something is indented below.
@@ -80,7 +80,7 @@ fn no_parameters(parser: &mut Parser<'_>) {
         parser.finish();
         let span = Span::new(first.start, parser.end_of_last());
         let problem = Diagnostic::new(Code::ActionParameters, span, "an action has no parameters");
-        let note = "what its guard finds can be kept with `some x = ...` in the `pre`";
+        let note = "`some x = ...` in the `pre` names a value for the effect";
         parser.report(problem.note(note).replace("remove them", span, ""));
     }
     parser.close(RightParen, open);
@@ -118,7 +118,7 @@ fn without_indentation(parser: &mut Parser<'_>) {
     .label(Span::empty(header_end), "the action");
     let problem = if follows {
         let edits = parser.indent_lines(first.start, parser.end_of_last());
-        problem.mend(Mend {
+        problem.fix(Fix {
             message: "indent it by 4 spaces".into(),
             edits,
         })
@@ -128,7 +128,7 @@ fn without_indentation(parser: &mut Parser<'_>) {
     parser.diagnostics.insert(reported, problem);
 }
 
-/// What is indented under an action's name.
+/// Parses the clauses that are indented under an action's name.
 fn clauses(parser: &mut Parser<'_>) {
     let mut seen = Seen::default();
     loop {
@@ -249,18 +249,18 @@ fn outside_eff(parser: &mut Parser<'_>, seen: &mut Seen) {
     let problem = Diagnostic::new(
         Code::MissingEff,
         first,
-        "the statements of an action stand after `eff`",
+        "the statements of an action follow `eff`",
     );
     parser.report(match seen.eff {
         Some(eff) => problem.label(eff, "its `eff` is here; indent the statement under it"),
-        None => problem.mend(Mend {
+        None => problem.fix(Fix {
             message: "put `eff` before them".into(),
             edits: put_eff(parser, span, lines),
         }),
     });
 }
 
-/// What puts `eff` before statements: on the line of a single one, above several.
+/// The edits that put `eff` before statements: on the line of a single one, above several.
 fn put_eff(parser: &Parser<'_>, span: Span, lines: u32) -> Vec<Edit> {
     let start = Span::empty(span.start);
     if lines <= 1 {

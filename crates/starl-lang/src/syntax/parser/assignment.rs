@@ -58,9 +58,9 @@ fn assignment(parser: &mut Parser<'_>, target: Span) {
     } else {
         operand_text.into()
     };
-    let mend = format!("= {target} {operator} {right}");
-    let form = format!("write `{target} {mend}`");
-    parser.report(problem.replace(form, span.to(operand), mend));
+    let fix = format!("= {target} {operator} {right}");
+    let form = format!("write `{target} {fix}`");
+    parser.report(problem.replace(form, span.to(operand), fix));
 }
 
 /// `x++` or `x--`.

@@ -4,7 +4,7 @@ use alloc::format;
 
 use super::slips::{self, Colon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*, statement};
-use crate::diagnostic::{Edit, Mend};
+use crate::diagnostic::{Edit, Fix};
 
 /// The indented statements under a header; `owner` is what needs them.
 pub(super) fn indented(parser: &mut Parser<'_>, owner: &str) {
@@ -31,7 +31,7 @@ pub(super) fn after_word(parser: &mut Parser<'_>, owner: &str, goes_on: bool) {
     parser.finish();
 }
 
-/// What belongs to `else`: a statement on its line, or a block.
+/// Parses the body of `else`: a statement on its line, or a block.
 pub(super) fn after_else(parser: &mut Parser<'_>) {
     slips::header_colon(parser, Colon::Remove);
     if parser.at_line_end() {
@@ -58,7 +58,7 @@ pub(super) fn opens_block(parser: &mut Parser<'_>, owner: &str) -> bool {
         if parser.at(LeftBrace) {
             parser.diagnostics.last_mut().into_iter().for_each(|last| {
                 last.notes
-                    .push("a block is made by indentation, without braces".into());
+                    .push("a block is indented and has no braces".into());
             });
         }
         parser.skip_to_line_end();
@@ -84,8 +84,8 @@ fn missing(parser: &mut Parser<'_>, owner: &str) {
         let start = parser.start_of_line(next.start);
         let problem = problem.label(next, "this line is not indented deeper");
         let edits = [Edit::new(Span::empty(start), "    ")].into();
-        problem.mend(Mend {
-            message: "indent what belongs to it by 4 more spaces".into(),
+        problem.fix(Fix {
+            message: "indent its block by 4 more spaces".into(),
             edits,
         })
     } else {
@@ -138,7 +138,7 @@ fn on_line(parser: &mut Parser<'_>, first: statement::Place) {
 
 /// Warns of the statement that is next, before which `if` and a semicolon stand on the line.
 fn after_inline_if(parser: &mut Parser<'_>) {
-    let message = "this is done whether the condition holds or not";
+    let message = "this runs whether the condition is true or not";
     let problem = Diagnostic::new(Code::AfterInlineIf, parser.span(), message);
     let note = "`then` and `else` take one statement: put this one on a line of its own, or both in a block";
     parser.report(problem.note(note));
@@ -149,7 +149,7 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
     let first = parser.nth_span(1);
     let start = parser.start_of_line(first.start);
     parser.start(Error);
-    // What is wrong with the line above may well be why this one is not understood.
+    // An error on the line above may be the reason why this line is not understood.
     let line_above = parser.start_of_line(parser.end_of_last());
     if parser.last_report.is_some_and(|end| end >= line_above) {
         parser.skip_block();
@@ -174,7 +174,7 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
     parser.finish();
 }
 
-/// Reports a line that begins with the operator by which it goes on with the one above.
+/// Reports a line that begins with the operator by which it continues with the one above.
 fn move_operator(parser: &mut Parser<'_>, problem: Diagnostic) {
     let (operator, end) = (parser.nth_span(1), parser.end_of_last());
     let rest = Span::new(operator.start, parser.nth_span(2).start);
@@ -185,8 +185,8 @@ fn move_operator(parser: &mut Parser<'_>, problem: Diagnostic) {
     ]
     .into();
     let message = format!("move `{text}` to the end of the line above");
-    let problem = problem.note("a line goes on in the next if it ends in an operator");
-    parser.report(problem.mend(Mend { message, edits }));
+    let problem = problem.note("a line that ends in an operator continues in the next");
+    parser.report(problem.fix(Fix { message, edits }));
 }
 
 /// Whether it stands between two operands.

@@ -247,7 +247,7 @@ pub(super) fn foreign_word(parser: &mut Parser<'_>) {
     let Some(meant) = slips::foreign_declaration(parser.word()) else {
         return;
     };
-    let message = format!("{} begins no declaration", parser.found());
+    let message = format!("{} does not begin a declaration", parser.found());
     let problem = Diagnostic::new(Code::ForeignDeclaration, span, message);
     parser.report(problem.replace(format!("did you mean `{meant}`?"), span, meant));
     if let Some((_, parse)) = form::by_meaning(meant) {

@@ -7,7 +7,7 @@ use rowan::Checkpoint;
 use super::operand::{self, postfix};
 use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*};
 
-/// What an expression is, as far as statements ask.
+/// The shape of an expression, for the parser of statements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     /// Something that can be assigned to: a name, or a field or an element of one.
@@ -25,7 +25,7 @@ pub(super) enum Shape {
 /// An expression that was parsed.
 #[derive(Clone, Copy)]
 pub(super) struct Parsed {
-    /// What it is.
+    /// Its shape.
     pub shape: Shape,
     /// How deep its tree is.
     pub height: u32,
@@ -55,7 +55,7 @@ pub(super) mod power {
     pub const SIGN: u8 = 9;
 }
 
-/// An expression, or a report that there is none.
+/// Parses an expression, or reports that it is missing.
 pub(super) fn expression(parser: &mut Parser<'_>) -> Shape {
     expression_parsed(parser).shape
 }
@@ -161,12 +161,12 @@ fn prefix(parser: &mut Parser<'_>, start: Checkpoint) -> Option<Parsed> {
         NotKeyword => power::NOT,
         Bang => {
             let span = parser.span();
-            let mend = ("write `not`", "not ");
+            let fix = ("write `not`", "not ");
             super::slips::foreign_operator(
                 parser,
                 span,
                 "`!` before a value is written `not`",
-                mend,
+                fix,
             );
             power::SIGN
         }
@@ -203,9 +203,9 @@ fn chained(parser: &mut Parser<'_>, span: Span, operand: u32) {
         span,
         "a comparison cannot be compared again",
     );
-    let mend = format!(" and {text}");
+    let fix = format!(" and {text}");
     let form = format!("write `and {text}` before it");
-    parser.report(problem.replace(form, Span::empty(middle.end), mend));
+    parser.report(problem.replace(form, Span::empty(middle.end), fix));
 }
 
 /// Whether the kind can begin an operand.
@@ -214,7 +214,7 @@ pub(super) fn starts(kind: SyntaxKind) -> bool {
 }
 
 impl Parser<'_> {
-    /// Whether an expression can begin with what is next.
+    /// Whether an expression can begin with the next token.
     pub fn starts_operand(&self) -> bool {
         starts(self.current())
     }

@@ -4,7 +4,7 @@ use super::declaration::{self as declare, contextual};
 use super::{Parser, SyntaxKind, SyntaxKind::*};
 use super::{action, handler, property, record, shared, slips, stable};
 
-/// What is being declared, and the function that parses it from its first word.
+/// The kind of declaration, and the function that parses it from its first word.
 pub(super) type Form = (SyntaxKind, fn(&mut Parser<'_>));
 
 /// The form of the declaration that is next, if it is one.

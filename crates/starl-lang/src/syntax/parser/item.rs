@@ -1,4 +1,4 @@
-//! What a file is made of: the header and declarations, one after another.
+//! The parts of a file: the header and declarations, one after another.
 
 use alloc::format;
 
@@ -124,13 +124,11 @@ fn check_place(parser: &mut Parser<'_>, kind: SyntaxKind, place: Place, first: u
         let problem = Diagnostic::new(
             Code::Misplaced,
             at,
-            format!("`{word}` cannot stand in a role"),
+            format!("`{word}` is not allowed in a role"),
         );
-        parser.report(
-            problem.note(
-                "a role holds variables, `init`, actions and handlers; the rest stands outside",
-            ),
-        );
+        parser.report(problem.note(
+            "a role contains variables, `init`, actions and handlers; declare the rest outside",
+        ));
     } else if matches!(kind, ProgramHeader | LibraryHeader) && first > 0 {
         let problem = Diagnostic::new(
             Code::Misplaced,
@@ -141,14 +139,14 @@ fn check_place(parser: &mut Parser<'_>, kind: SyntaxKind, place: Place, first: u
     }
 }
 
-/// Something that is no declaration.
+/// Text that is not a declaration.
 fn other(parser: &mut Parser<'_>, start: Checkpoint) {
     match parser.current() {
         PreKeyword | EffKeyword => {
             let problem = Diagnostic::new(
                 Code::Misplaced,
                 parser.span(),
-                format!("{} belongs to no action", parser.found()),
+                format!("{} is outside of an action", parser.found()),
             );
             parser.report(
                 problem.note("it stands indented under the name of an action, as in `pick()`"),
@@ -161,8 +159,7 @@ fn other(parser: &mut Parser<'_>, start: Checkpoint) {
                 parser.span(),
                 "a statement cannot stand here",
             );
-            let note =
-                "statements stand in `init`, in the `eff` of an action, in a handler or a function";
+            let note = "statements belong in `init`, in the `eff` of an action, in a handler or a function";
             parser.report(problem.note(note));
             statement::statement(parser, statement::Place::OwnLine);
             parser.start_at(start, Error);
@@ -189,7 +186,7 @@ fn is_statement(parser: &Parser<'_>) -> bool {
     }
 }
 
-/// The name of what is declared.
+/// The name of the declaration.
 pub(super) fn name(parser: &mut Parser<'_>) {
     if parser.current().is_keyword() {
         let message = format!("{} is a keyword and cannot be a name", parser.found());

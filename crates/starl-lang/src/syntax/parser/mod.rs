@@ -1,8 +1,8 @@
-//! From tokens to the tree: a recursive descent that never fails.
+//! The parser: a recursive descent from tokens to the tree that never fails.
 //!
-//! Every token goes into the tree in order, so the tree's text is the source. What cannot be understood
-//! goes into nodes of the kind `Error`, up to the end of its line; then it goes on. Each function that
-//! parses something either takes a token or leaves the work to one that does, so that it always ends.
+//! Every token goes into the tree in order, so the tree's text is the source. Text that cannot be parsed goes into
+//! nodes of the kind `Error`, up to the end of its line; then parsing continues. Each function that parses something
+//! either takes a token or leaves the work to one that does, so that it always ends.
 
 mod action;
 mod assignment;
@@ -34,11 +34,11 @@ use super::layout::Lexeme;
 use super::lexer::Tokens;
 use crate::diagnostic::{Code, Diagnostic, Span};
 
-/// How deep the tree may be, counting what has parts: enough for any program that a person wrote, and
-/// little enough that whoever walks the tree needs little stack.
+/// The greatest depth of the tree, counting nodes with parts: enough for any program written by hand, and small enough
+/// that recursive walks need little stack.
 pub const MAX_DEPTH: u32 = 200;
 
-/// The tree of a text and what is wrong with it.
+/// The tree of a text and its problems.
 pub(crate) fn parse(
     text: &str,
     tokens: &Tokens,

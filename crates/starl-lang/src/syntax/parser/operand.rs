@@ -1,5 +1,4 @@
-//! What operators stand between: literals, names, calls, elements, fields, brackets, and the forms that
-//! begin with a word.
+//! Operands: literals, names, calls, elements, fields, brackets, and the forms that begin with a keyword.
 
 use alloc::format;
 
@@ -19,7 +18,7 @@ pub(super) fn starts(kind: SyntaxKind) -> bool {
     )
 }
 
-/// An operand with all that follows it directly: fields, arguments, indices, `!`.
+/// An operand with its suffixes: fields, arguments, indices, `!`.
 pub(super) fn postfix(parser: &mut Parser<'_>, start: Checkpoint) -> Parsed {
     let mut parsed = simple(parser);
     loop {

@@ -1,4 +1,4 @@
-//! Going on after something that could not be understood.
+//! Recovery after syntax errors.
 
 use alloc::vec::Vec;
 
@@ -6,7 +6,7 @@ use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
 use crate::diagnostic::Edit;
 
 impl Parser<'_> {
-    /// Puts the rest of what stands on the line into an `Error`, if there is any.
+    /// Puts the rest of the line into an `Error`, if there is any.
     pub fn skip_to_line_end(&mut self) {
         if self.at_line_end() {
             return;
@@ -48,7 +48,7 @@ impl Parser<'_> {
         }
     }
 
-    /// In brackets: puts what is before the next comma or closing bracket into an `Error`.
+    /// In brackets: puts everything before the next comma or closing bracket into an `Error`.
     pub fn skip_element(&mut self) {
         self.start(Error);
         let mut open = 0_u32;
@@ -65,7 +65,7 @@ impl Parser<'_> {
         self.finish();
     }
 
-    /// What must follow a statement or a declaration: the end of the line, or of the block.
+    /// Parses the end of a statement or a declaration: the end of the line, or of the block.
     pub fn end_line(&mut self) {
         let after_block = self.position > 0 && self.lexemes[self.position - 1].kind == Dedent;
         if !self.at_line_end() && !after_block {
@@ -91,8 +91,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Elements with commas between them, from after the opening bracket at `open` to the closing one. If
-    /// there is none, the end of the line is the end.
+    /// Elements with commas between them, from after the opening bracket at `open` to the closing one. Without one, the
+    /// list ends with the line.
     pub fn separated(
         &mut self,
         closing: SyntaxKind,
@@ -128,7 +128,7 @@ impl Parser<'_> {
         let problem = Diagnostic::new(
             Code::Unexpected,
             span,
-            "a comma parts what stands in brackets",
+            "commas separate the elements in brackets",
         );
         self.report(problem.replace("write `,`", span, ","));
         self.start(Error);
@@ -178,7 +178,7 @@ impl Parser<'_> {
         self.last_error = Some(self.position);
     }
 
-    /// What indents the lines from the one with the byte `from` to the one with the byte before `to`.
+    /// The edits that indent the lines from the one with the byte `from` to the one with the byte before `to`.
     pub fn indent_lines(&self, from: u32, to: u32) -> Vec<Edit> {
         let first = self.start_of_line(from);
         let line_ends = self.text[first as usize..to as usize].match_indices('\n');

@@ -1,4 +1,4 @@
-//! Reporting what is wrong.
+//! Reporting problems.
 
 use alloc::string::String;
 
@@ -38,7 +38,7 @@ impl Parser<'_> {
         );
     }
 
-    /// Whether a character without meaning, which is reported, is right before what comes next.
+    /// Whether an invalid character, which is reported, directly precedes the next token.
     pub fn follows_unknown(&self) -> bool {
         let next = self
             .lexemes
@@ -48,7 +48,7 @@ impl Parser<'_> {
         before.find(|kind| *kind != Whitespace) == Some(Unknown)
     }
 
-    /// What the next lexeme is called where a person is told of it.
+    /// The name of the next lexeme in messages.
     pub fn found(&self) -> String {
         match self.current() {
             kind if kind.text().is_some() => kind.name().into(),

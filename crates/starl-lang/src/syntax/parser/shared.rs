@@ -20,10 +20,11 @@ pub(super) fn all_write(parser: &mut Parser<'_>) {
         let problem = Diagnostic::new(
             Code::Unexpected,
             open,
-            "a variable that all write is no array",
+            "a variable that all robots write is not an array",
         );
-        parser
-            .report(problem.note("where each robot writes an element of its own, it is `allread`"));
+        parser.report(
+            problem.note("use `allread` for an array in which each robot writes its own element"),
+        );
         array_index(parser);
     }
     typed(parser);
@@ -99,7 +100,7 @@ fn typed(parser: &mut Parser<'_>) {
     declaration::value(parser);
 }
 
-/// Whether what is next declares an array as other languages do: `name[...]: Type`.
+/// Whether an array is declared next in the syntax of other languages: `name[...]: Type`.
 pub(super) fn is_array(parser: &Parser<'_>) -> bool {
     match parser.nth(2) {
         RightBracket => parser.nth(3) == Colon,

@@ -1,11 +1,11 @@
-//! What people write who come from another language, and what they meant.
+//! Habits from other languages, and their fixes.
 
 use alloc::format;
 
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
 use crate::diagnostic::closest;
 
-/// What becomes of a colon at the end of a header.
+/// The treatment of a colon at the end of a header.
 #[derive(Clone, Copy)]
 pub(super) enum Colon {
     /// It goes.
@@ -50,7 +50,7 @@ pub(super) const DECLARATIONS: &[&str] = &[
     "eventually",
 ];
 
-/// What a word that begins a declaration in another language is here.
+/// StarL's counterpart of a word that begins a declaration in another language.
 pub(super) fn foreign_declaration(word: &str) -> Option<&'static str> {
     Some(match word {
         "def" | "fn" | "func" | "fun" => "function",
@@ -123,15 +123,15 @@ pub(super) fn foreign_variable(parser: &mut Parser<'_>, keyword: &str) {
         format!("{what} is written {form}"),
     );
     let name_text = name.of(parser.text);
-    let mend = if is_untyped(text) {
+    let fix = if is_untyped(text) {
         // Without `let`, a variable needs its type.
         (!keyword.is_empty() || after_name == SyntaxKind::Colon)
             .then(|| format!("{keyword}{name_text}"))
     } else {
         Some(format!("{keyword}{name_text}: {}", type_of(text)))
     };
-    parser.report(match mend {
-        Some(mend) => problem.replace(format!("write `{mend}`"), word.to(name), mend),
+    parser.report(match fix {
+        Some(fix) => problem.replace(format!("write `{fix}`"), word.to(name), fix),
         None => problem,
     });
     if is_untyped(text) {
@@ -143,7 +143,7 @@ pub(super) fn foreign_variable(parser: &mut Parser<'_>, keyword: &str) {
     }
 }
 
-/// What is said of a statement that StarL does without, if the word at its start is one.
+/// The message about a statement of another language, if the word at its start is one.
 pub(super) fn foreign_statement(parser: &Parser<'_>) -> Option<&'static str> {
     let next = parser.nth(1);
     let alone = matches!(next, Newline | Semicolon | Dedent | EndOfFile);
@@ -158,11 +158,11 @@ pub(super) fn foreign_statement(parser: &Parser<'_>) -> Option<&'static str> {
         }
         "switch" | "match" | "case" if heads && !calls(parser) => "write `if` and `elif`",
         "break" | "continue" if alone => {
-            "a `for` runs over the whole of its collection: put an `if` in it, or `return`"
+            "a `for` always iterates over its whole collection: use an `if` in it, or `return`"
         }
         "pass" | "skip" if alone => "leave the block out",
         "try" | "except" | "catch" if alone || next == SyntaxKind::Colon => {
-            "a run-time error stops the robot's program: ask before, as with `if some`"
+            "a run-time error stops the robot's program: test before, for example with `if some`"
         }
         _ => return None,
     })
@@ -182,8 +182,8 @@ pub(super) fn foreign_operator(
     parser: &mut Parser<'_>,
     span: Span,
     message: &str,
-    mend: (&str, &str),
+    fix: (&str, &str),
 ) {
     let problem = Diagnostic::new(Code::ForeignOperator, span, message);
-    parser.report(problem.replace(mend.0, span, mend.1));
+    parser.report(problem.replace(fix.0, span, fix.1));
 }

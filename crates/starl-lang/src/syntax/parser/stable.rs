@@ -1,4 +1,4 @@
-//! `stable name: Type`: a variable that outlasts a crash where the robot has storage.
+//! `stable name: Type`: a variable that survives a crash if the robot has storage.
 
 use super::form::{self, Form};
 use super::item::Place;
@@ -70,7 +70,7 @@ pub(super) fn check_place(parser: &mut Parser<'_>, place: Place) {
         let message = "a variable of a role cannot be stable";
         let problem = Diagnostic::new(Code::Misplaced, parser.span(), message);
         parser.report(problem.note(
-            "it gets its first value whenever the robot enters the role; declare it outside",
+            "it gets its initial value whenever the robot enters the role; declare it outside",
         ));
     }
 }

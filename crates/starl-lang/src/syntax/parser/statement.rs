@@ -28,21 +28,21 @@ pub(super) fn statement(parser: &mut Parser<'_>, place: Place) {
         Identifier => from_name(parser),
         ElifKeyword | ElseKeyword => stray(
             parser,
-            "belongs to no `if`",
-            "it stands right below an `if` or `elif`",
+            "has no `if`",
+            "it must directly follow the block of an `if` or `elif`",
         ),
         PreKeyword | EffKeyword => {
-            let note = "it stands right under the name of an action, as in `pick()`";
+            let note = "it must directly follow the name of an action, as in `pick()`";
             stray(parser, "cannot stand among statements", note);
         }
         OnKeyword => {
-            let note = "a handler stands by itself: begin its line as the declarations do";
+            let note = "a handler is a declaration of its own: indent its line like the other declarations";
             stray(parser, "cannot stand among statements", note);
         }
         Ellipsis => stray(
             parser,
-            "stands for something left out",
-            "write the statements, or leave the block out",
+            "is not a statement",
+            "write the statements, or remove the block",
         ),
         _ if parser.starts_operand() => assignment::expression_or_assignment(parser),
         _ => {

@@ -71,7 +71,7 @@ impl Parser<'_> {
         self.builder.checkpoint()
     }
 
-    /// A place before the comments that document what comes next.
+    /// A checkpoint before the comments that document the next declaration.
     pub fn checkpoint_with_documentation(&mut self) -> Checkpoint {
         let next = self
             .lexemes

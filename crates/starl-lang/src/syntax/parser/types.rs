@@ -2,7 +2,7 @@
 
 use super::{Code, Diagnostic, Parser, SyntaxKind::*, record};
 
-/// A type, or a report that there is none.
+/// Parses a type, or reports that it is missing.
 pub(super) fn any(parser: &mut Parser<'_>) {
     let start = parser.checkpoint();
     if parser.deeper(single).is_none_or(|found| !found) {
@@ -62,7 +62,7 @@ fn angle_arguments(parser: &mut Parser<'_>) {
     let problem = Diagnostic::new(
         Code::Unexpected,
         open,
-        "what a type holds stands in square brackets",
+        "type arguments are in square brackets",
     );
     parser.start(TypeArguments);
     parser.bump();
@@ -76,7 +76,7 @@ fn angle_arguments(parser: &mut Parser<'_>) {
         let edits = [(open, "["), (close, "]")]
             .map(|(span, text)| crate::diagnostic::Edit::new(span, text));
         let message = "write it in square brackets".into();
-        parser.report(problem.mend(crate::diagnostic::Mend {
+        parser.report(problem.fix(crate::diagnostic::Fix {
             message,
             edits: edits.into(),
         }));

@@ -110,7 +110,7 @@ impl Generator {
         };
     }
 
-    /// What `inside` makes, indented deeper.
+    /// The output of `inside`, indented one level deeper.
     fn block(&mut self, inside: impl FnOnce(&mut Self)) {
         let deeper = self.indentation.last().unwrap_or(&0) + 1 + self.random.below(5) as usize;
         self.indentation.push(deeper);

@@ -1,4 +1,4 @@
-//! What the tests of the language share: programs to try, and what must hold of any text.
+//! Common code of the language's tests: example programs, and the properties of any text.
 
 pub mod generator;
 pub mod mutation;
@@ -28,8 +28,8 @@ pub fn written() -> impl Iterator<Item = (&'static str, &'static str)> {
     LISTINGS.iter().copied().chain([("every_form", EVERY_FORM)])
 }
 
-/// Reads a text and holds it to what is promised of any: the tree's text is the text, every diagnostic
-/// lies in it, and nothing is left out without an error.
+/// Parses a text and checks the guarantees for every text: the tree's text is the text, every diagnostic is within it,
+/// and nothing is omitted without an error.
 pub fn parsed(text: &str) -> Parse {
     let parse = parse(text);
     assert_eq!(
@@ -48,11 +48,11 @@ pub fn parsed(text: &str) -> Parse {
                 && text.get(span.start as usize..span.end as usize).is_some();
             assert!(inside, "{diagnostic:?} lies outside of {text:?}");
         }
-        for edit in diagnostic.mend.iter().flat_map(|mend| &mend.edits) {
+        for edit in diagnostic.fix.iter().flat_map(|fix| &fix.edits) {
             let range = edit.span.start as usize..edit.span.end as usize;
             assert!(
                 text.get(range).is_some(),
-                "{diagnostic:?} mends outside of {text:?}"
+                "{diagnostic:?} fixes outside of {text:?}"
             );
         }
     }
@@ -68,7 +68,7 @@ pub fn parsed(text: &str) -> Parse {
     parse
 }
 
-/// Whether it has errors, aside from warnings and from tabs, which formatting mends.
+/// Whether it has errors other than tabs, which formatting fixes.
 pub fn is_wrong(parse: &Parse) -> bool {
     parse.diagnostics().iter().any(|diagnostic| {
         diagnostic.severity() == Severity::Error && diagnostic.code != Code::TabIndentation

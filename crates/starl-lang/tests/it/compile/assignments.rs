@@ -30,8 +30,8 @@ log(\"{}\", y)";
 }
 
 #[test]
-fn indices_come_before_the_value() {
-    // Draws of random numbers are told in their order.
+fn indices_are_evaluated_before_the_value() {
+    // Draws of random numbers are recorded in their order.
     let body = "
 a[random_int(0, 1)] = random_int(1, 2)
 a[random_int(2, 3)] += random_int(3, 4)
@@ -51,7 +51,7 @@ n[random_int(10, 11)].insert(random_int(11, 12), random_int(12, 13))";
 }
 
 #[test]
-fn the_value_comes_before_the_write() {
+fn the_value_is_evaluated_before_the_write() {
     let mut robot = Robot::started(
         "program Test\na: List[Int] = [1]\ngo()\n    eff\n        a[9] = random_int(0, 1)\n",
     );

@@ -44,7 +44,7 @@ fn every_combination() {
 }
 
 #[test]
-fn what_does_not_decide_is_not_computed() {
+fn undecisive_operands_are_not_computed() {
     values(
         DECLARATIONS,
         &[

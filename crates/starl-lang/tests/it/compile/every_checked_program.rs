@@ -1,4 +1,4 @@
-//! Every program in the tests that the checker takes compiles and loads, or it is said why not.
+//! Every program in the tests that the checker accepts compiles and loads, or has a diagnostic.
 #![allow(clippy::disallowed_methods, reason = "the cases are files")]
 
 use std::collections::BTreeMap;
@@ -82,7 +82,7 @@ fn of_the_standard_library() {
 }
 
 #[test]
-fn with_what_is_missing_taken_out() {
+fn without_unsupported_parts() {
     // Every form of the language but `mux.failed` as an event, which there is none of.
     let geometry = "library geometry\nrecord Line {a: Point, b: Point}\n";
     let libraries = BTreeMap::from([("geometry".to_string(), geometry.to_string())]);

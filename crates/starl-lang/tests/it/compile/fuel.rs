@@ -1,4 +1,4 @@
-//! What code costs: loops are bounded, and good code is cheap.
+//! The cost of code: loops are bounded, and good code is cheap.
 
 use starl_lang::check::NoLibraries;
 use starl_lang::machine::{Fault, Limits, Value, disassemble};
@@ -76,7 +76,7 @@ fn a_turn_over_a_list_is_four_instructions() {
 }
 
 #[test]
-fn what_runs_on_for_long_is_stopped_where_it_is() {
+fn long_computations_are_stopped_at_their_position() {
     let mut robot = robot(10_000);
     let stopped = robot
         .call("loop", &[Value::Int(1_000_000)])

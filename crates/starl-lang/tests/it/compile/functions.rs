@@ -146,7 +146,7 @@ go()
 }
 
 #[test]
-fn what_is_not_used_is_left_out() {
+fn unused_functions_are_omitted() {
     let source = "program Test\nfunction used(x: Int) -> Int = x\nfunction unused(x: Int) -> Int = x\nn: Int = used(1)\ngo()\n    eff n += 1\n";
     let program = super::support::program(source);
     let names: Vec<&str> = program

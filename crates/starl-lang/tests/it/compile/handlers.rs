@@ -1,4 +1,4 @@
-//! Handlers of messages and of what primitives report.
+//! Handlers of messages and of primitives' events.
 
 use starl_lang::machine::{Origin, Type, Value};
 
@@ -50,7 +50,7 @@ fn a_message_goes_to_all_its_handlers() {
 }
 
 #[test]
-fn handlers_take_all_that_the_message_has() {
+fn handlers_get_all_fields_of_the_message() {
     let test = Robot::new(SOURCE);
     let bytecode = test.program.bytecode();
     let kinds = |event: &str| {

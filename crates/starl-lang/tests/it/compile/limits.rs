@@ -1,4 +1,4 @@
-//! What the machine cannot hold is said, at its place.
+//! The compiler reports, with the position, programs that exceed the machine's limits.
 
 use starl_lang::check::{NoLibraries, check};
 use starl_lang::compile::compile;
@@ -6,7 +6,7 @@ use starl_lang::diagnostic::Code;
 
 use super::support::shown;
 
-/// The codes and the marked texts of what is wrong with a program that the checker takes.
+/// The codes and the marked texts of the errors in a program that the checker accepts.
 fn problems(source: &str) -> Vec<(Code, String)> {
     let checked = check(source, &NoLibraries);
     assert!(

@@ -1,9 +1,9 @@
-//! What `log` and `emit` tell.
+//! The output of `log` and `emit`.
 
 use super::support::effect;
 
 #[test]
-fn each_place_stands_for_the_next_value() {
+fn each_placeholder_shows_the_next_value() {
     let told = effect(
         "s: String = \"x\"",
         "log(\"a\")\nlog(\"{}\", 1)\nlog(\"{}{}\", 1, s)\nlog(\"<{}> and {}.\", s, [s])\nlog(\"\")\nlog(s)\nlog(s + s)",
@@ -24,7 +24,7 @@ fn each_place_stands_for_the_next_value() {
 
 #[test]
 fn places_and_values_that_do_not_match() {
-    // They are warned of; values are computed all the same.
+    // The checker warns of them; values are computed too.
     let told = effect(
         "",
         "log(\"{} {}\", 1)\nlog(\"{}\", 1, random_int(0, 9))\nlog(\"none\", 1)",
@@ -41,7 +41,7 @@ fn places_and_values_that_do_not_match() {
 }
 
 #[test]
-fn a_format_that_is_no_literal() {
+fn a_format_that_is_not_a_literal() {
     let body = "log(f, 1, \"b\")\nlog(f + f, 1, \"b\", 2.5)\nlog(\"{}\" + f, s)\nlog(s, 1)\nlog(f + f + f, s)";
     let told = effect("f: String = \"<{}|{}>\"\ns: String = \"t\"", body).unwrap();
     assert_eq!(

@@ -62,7 +62,7 @@ fn over_ranges() {
 }
 
 #[test]
-fn what_is_run_over_stays_as_it_was() {
+fn a_loop_iterates_over_the_original_collection() {
     assert_eq!(
         told("for x in a\n    a.add(x * 2)\nlog(\"{}\", a)"),
         ["[3, 1, 2, 6, 2, 4]"]
@@ -106,7 +106,7 @@ fn leaving_early() {
 }
 
 #[test]
-fn locals_begin_anew_in_each_turn() {
+fn locals_are_initialized_in_each_iteration() {
     let body = "for x in a\n    let l: List[Int] = []\n    l.add(x)\n    let c = 0\n    c += 1\n    log(\"{} {}\", l, c)";
     assert_eq!(told(body), ["[3] 1", "[1] 1", "[2] 1"]);
 }

@@ -119,7 +119,7 @@ fn conversions() {
 }
 
 #[test]
-fn what_cannot_be_computed_stops_the_program_at_its_line() {
+fn arithmetic_errors_stop_the_program_at_their_line() {
     let rows = [
         ("log(\"{}\", a / (b + 3))", 1, Fault::DivisionByZero),
         ("let c = a\nlog(\"{}\", c / 0)", 2, Fault::DivisionByZero),

@@ -58,7 +58,7 @@ fn calls() {
 }
 
 #[test]
-fn imports_say_what_is_asked() {
+fn imports_have_their_signatures() {
     let robot = Robot::new(SOURCE);
     let imports = &robot.program.bytecode().imports;
     let named = |name: &str| imports.iter().find(|import| import.name == name).unwrap();

@@ -1,4 +1,4 @@
-//! Properties: what they say of robots, and how they are claimed.
+//! Properties: attributes of robots, and claims.
 
 use starl_lang::check::{NoLibraries, check};
 use starl_lang::compile::compile;
@@ -161,7 +161,7 @@ fn with_quantifiers_inside() {
 }
 
 #[test]
-fn what_is_true_of_the_robot_itself() {
+fn a_property_of_each_robot() {
     let mut test = fleet();
     test.world
         .answers

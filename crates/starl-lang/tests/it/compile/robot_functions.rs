@@ -1,4 +1,4 @@
-//! What asks and tells the robot itself.
+//! Functions that call the robot.
 
 use starl_lang::machine::Value;
 
@@ -25,7 +25,7 @@ fn asking() {
 }
 
 #[test]
-fn what_is_detected_has_fields() {
+fn detections_have_fields() {
     let source = "program Test\ngo()\n    pre some side = bumped and side != both\n    eff\n        for d in detected\n            log(\"{} {} {}\", d.robot, d.thing ?? 0, d.position.x)\n        log(\"{}\", side)\n";
     let mut test = Robot::started(source);
     let detection = Value::Record(vec![

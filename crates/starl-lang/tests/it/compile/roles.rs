@@ -41,7 +41,7 @@ role idle
 ";
 
 #[test]
-fn entering_runs_what_the_role_begins_with() {
+fn entering_a_role_runs_its_init() {
     let mut robot = Robot::new(SOURCE);
     robot.start().unwrap();
     assert_eq!(

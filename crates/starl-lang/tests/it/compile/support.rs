@@ -1,4 +1,4 @@
-//! A robot for compiled programs that writes down what it is told, and ways to run programs on it.
+//! A robot for compiled programs that records calls, and functions that run programs on it.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -12,14 +12,14 @@ use starl_lang::machine::{
     State, Value, Workspace,
 };
 
-/// What went wrong, and where: `race.starl:12:5`.
+/// An error and its position: `race.starl:12:5`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopped {
     pub fault: Fault,
     pub place: String,
 }
 
-/// A robot: its program, its state, and what it was told.
+/// A robot: its program, its state, and its recorded calls.
 pub struct Robot {
     pub program: Program,
     pub state: State,
@@ -29,12 +29,12 @@ pub struct Robot {
     pub used: u64,
 }
 
-/// What is around the robot.
+/// The world around the robot.
 #[derive(Default)]
 pub struct World {
-    /// Every call that is no query, as text.
+    /// Every call except queries, as text.
     pub told: Vec<String>,
-    /// What queries are answered with; what is not here is answered by [`usual`], or with nothing.
+    /// The answers to queries; other queries get the answer of [`usual`], or none.
     pub answers: BTreeMap<String, Value>,
     /// The states of the robots of the fleet, for properties.
     pub states: BTreeMap<u32, State>,
@@ -54,7 +54,7 @@ pub fn robot(number: u32) -> Value {
     Value::Robot(RobotId(number))
 }
 
-/// What queries are answered with if nothing else is said.
+/// The default answers to queries.
 fn usual(name: &str) -> Option<Value> {
     Some(match name {
         "me" => robot(1),
@@ -275,13 +275,13 @@ impl Robot {
         assert!(self.program.set(&mut self.state, variable, value));
     }
 
-    /// What was told since the last time.
+    /// The calls since the last time.
     pub fn told(&mut self) -> Vec<String> {
         std::mem::take(&mut self.world.told)
     }
 }
 
-/// What an effect with these statements tells, in a program with these declarations.
+/// The calls of an effect with these statements, in a program with these declarations.
 pub fn effect(declarations: &str, statements: &str) -> Result<Vec<String>, Stopped> {
     let indented: String = statements
         .lines()
@@ -293,7 +293,7 @@ pub fn effect(declarations: &str, statements: &str) -> Result<Vec<String>, Stopp
     Ok(robot.told())
 }
 
-/// What `log` writes of expressions, in a program with these declarations.
+/// The text that `log` writes for expressions, in a program with these declarations.
 pub fn logged(declarations: &str, expressions: &[&str]) -> Vec<String> {
     let lines: Vec<String> = expressions
         .iter()

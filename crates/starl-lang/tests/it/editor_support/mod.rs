@@ -1,7 +1,7 @@
-//! What the tests of the editor services share: texts with a cursor, written `$0`, and libraries.
+//! Common code of the editor services' tests: texts with a cursor, written `$0`, and libraries.
 
 use starl_lang::check::{Libraries, StandardLibraries};
-use starl_lang::diagnostic::{Edit, Mend};
+use starl_lang::diagnostic::{Edit, Fix};
 use starl_lang::editor::{Analysis, Completion, Description, Occurrence, completions};
 
 /// The text without its cursor, and where that is.
@@ -33,7 +33,7 @@ pub fn analysis(text: &str) -> Analysis {
     Analysis::new(text, &StandardLibraries)
 }
 
-/// What the name at the cursor stands for.
+/// The meaning of the name at the cursor.
 pub fn at_cursor(text: &str) -> (Analysis, Occurrence) {
     let (text, at) = cursor(text);
     let analysis = analysis(&text);
@@ -41,14 +41,14 @@ pub fn at_cursor(text: &str) -> (Analysis, Occurrence) {
     (analysis, found.expect("there is a name at the cursor"))
 }
 
-/// What is shown at the cursor.
+/// The text shown at the cursor.
 pub fn hover(text: &str) -> Description {
     let (text, at) = cursor(text);
     let shown = analysis(&text).hover(at);
     shown.expect("something is shown at the cursor").1
 }
 
-/// What may be typed at the cursor.
+/// The completions at the cursor.
 pub fn complete(text: &str) -> Vec<Completion> {
     complete_with(text, &StandardLibraries)
 }
@@ -67,9 +67,9 @@ pub fn labels(text: &str) -> Vec<String> {
 
 /// The text after edits.
 pub fn edited(text: &str, edits: &[Edit]) -> String {
-    let mend = Mend {
+    let fix = Fix {
         message: String::new(),
         edits: edits.to_vec(),
     };
-    mend.apply(text)
+    fix.apply(text)
 }

@@ -1,4 +1,4 @@
-//! What the tests of the machine share: a host that records its calls, and ways to run text-form code.
+//! Common code of the machine's tests: a host that records its calls, and functions that run code in text form.
 
 pub mod every;
 
@@ -10,7 +10,7 @@ use starl_lang::machine::{
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// A host with a few functions, which writes down what was called.
+/// A host with a few functions, which records its calls.
 #[derive(Default)]
 pub struct TestHost {
     pub calls: Vec<String>,
@@ -89,7 +89,7 @@ pub fn program(text: &str) -> Program {
     load(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// What a call gave: scalars and objects, or what went wrong.
+/// The result of a call: scalars and objects, or the error.
 pub type Outcome = Result<(Vec<u64>, Vec<Object>), RuntimeError>;
 
 /// Calls function 0 of a program on a new state, with default limits.
@@ -160,7 +160,7 @@ pub fn numbers(object: &Object) -> Vec<i64> {
     })
 }
 
-/// A small race: visits the way-points in order, and follows those who are ahead.
+/// A small race: visits the waypoints in order, and follows the robots that are ahead.
 pub const RACE: &str = r#"
 program Race
 enum Location init pick wait

@@ -1,5 +1,5 @@
-//! What the tests of programs on robots share: a small world of robots whose programs are driven by
-//! hand, and whose network can be told what to do.
+//! Common code of the tests of programs on robots: a small world of robots whose programs run step by step, with a
+//! network under the test's control.
 
 pub mod race;
 
@@ -18,8 +18,8 @@ pub fn load(text: &str) -> Code {
     Code::load(bytecode).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Robots on a floor, which are where they are told to go at once, hear where they are before each activation, and
-/// have a network that delivers in a millisecond.
+/// Robots on a floor that move instantly, get their estimate before each activation, and have a network that delivers
+/// in a millisecond.
 #[derive(Clone)]
 pub struct World(Fleet);
 
@@ -53,7 +53,7 @@ impl World {
         World::new((0..robots).map(|_| program(code)).collect())
     }
 
-    /// The same, where messages get lost, come twice, and take from 1 ms to this long.
+    /// The same with a network that loses and duplicates messages, and delays them from 1 ms to this time.
     pub fn over_bad_network(code: &Code, robots: u32, seed: u64, longest_ms: u64) -> World {
         let mut world = World::of(code, robots);
         world.random = Random::keyed(seed, &[3]);
@@ -97,7 +97,7 @@ impl World {
         World(fleet)
     }
 
-    /// Puts way-points at these places, named `w0`, `w1` and so on.
+    /// Puts waypoints at these positions, named `w0`, `w1` and so on.
     pub fn with_way_points(mut self, places: &[(f64, f64)]) -> World {
         let places = places.iter().enumerate();
         let way_points = places.map(|(index, &(x, y))| WayPoint {
@@ -120,7 +120,7 @@ impl World {
         self.0.restart(robot, agent(program, robot));
     }
 
-    /// A robot stands here; it hears of it before it is activated.
+    /// Moves a robot; it gets its new estimate before its activation.
     pub fn put(&mut self, robot: usize, position: Point) {
         let now = self.now;
         self.robots[robot].travel.place(now, position);

@@ -1,4 +1,4 @@
-//! What must hold of every program that is generated, whatever the bytes.
+//! Properties that must hold for every generated program, whatever its bytes.
 
 use super::compare::{Compared, compare};
 use super::generate::{Choices, layout, program, program_with_parentheses};
@@ -62,7 +62,7 @@ pub fn can_be_written(bytecode: &Bytecode) {
     assert_eq!(assemble(&written).as_ref(), Ok(bytecode), "{written}");
 }
 
-/// It does on the machine what it means, and never goes wrong.
+/// Its behaviour on the machine is that of the reference interpreter, without internal errors.
 pub fn means(checked: &Checked, bytecode: &Bytecode) -> Compared {
     let loaded = run::load(bytecode);
     let compared = compare(&checked.program, bytecode, &loaded);

@@ -1,4 +1,4 @@
-//! What tests and fuzz targets of whole programs share: programs, a world for them, and what must hold.
+//! Common code of the tests and fuzz targets of whole programs: programs, a world for them, and their properties.
 
 pub mod compare;
 pub mod generate;

@@ -7,7 +7,7 @@ use starl_lang::machine::{
     Workspace,
 };
 
-/// What an activation may use.
+/// The limits of an activation.
 pub const LIMITS: Limits = Limits {
     fuel: 50_000,
     memory: 1 << 17,
@@ -22,7 +22,7 @@ pub enum Input {
     Handler(u32),
 }
 
-/// What happens to a program in a run, in order.
+/// The inputs of a program in a run, in order.
 pub fn inputs(bytecode: &Bytecode) -> Vec<Input> {
     let mut inputs = vec![Input::Defaults, Input::Start];
     for round in 0..4 {
@@ -58,7 +58,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Another run that goes on from here.
+    /// A copy of the run that continues from here.
     pub fn split(&self) -> Run<'a> {
         let host = TestHost {
             program: self.host.program,
@@ -101,7 +101,7 @@ impl<'a> Run<'a> {
         result
     }
 
-    /// What the handler is given.
+    /// The arguments of the handler.
     fn arguments(&self, input: Input) -> (Vec<u64>, Vec<Object>) {
         let program = self.host.program;
         let (mut scalars, mut objects) = (Vec::new(), Vec::new());
@@ -162,7 +162,7 @@ impl<'a> Run<'a> {
         results
     }
 
-    /// What tells two states apart.
+    /// A digest of the state.
     pub fn digest(&self) -> u64 {
         let mut digest = Digest::default();
         self.state.digest(&mut digest);
@@ -176,9 +176,9 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Runs a program to the end of the inputs or its first error, and sees that it never goes wrong: no
-/// malformed value, no more fuel or memory than it may use, the same when it is done again or when a copy
-/// goes on. Gives what stopped it.
+/// Runs a program to the end of the inputs or its first error, and checks that there is no internal error: no malformed
+/// value, no more fuel or memory than allowed, and the same result in a repetition and in a continued copy. Returns the
+/// error.
 pub fn never_goes_wrong(program: &Program) -> Option<RuntimeError> {
     let required =
         |variable: &starl_lang::machine::Variable| variable.parameter == Parameter::Required;

@@ -1,7 +1,7 @@
-//! A robot and its world as a program may find them: whatever it asks for is answered with some value of
-//! the right type, the same whenever the same is asked in the same moment.
+//! A robot and its world with random answers: each query gets a value of the right type, and the same query in the same
+//! moment gets the same value.
 //!
-//! Shared variables hold what was written. What has an effect is noted in the order in which it happens.
+//! Shared variables hold the values written. Calls with an effect are recorded in order.
 
 use starl_core::{Area, Duration, Point, Random, RobotId, Time};
 use starl_lang::machine::{
@@ -13,14 +13,14 @@ use std::collections::BTreeMap;
 /// The robot that runs the program.
 pub const ME: RobotId = RobotId(1);
 
-/// What the world answers, and what was done to it.
+/// The world's answers and the record of calls.
 #[derive(Clone, Default)]
 pub struct World {
     /// Answers may differ from one moment to the next.
     pub moment: u64,
     /// How many effects there were.
     pub effects: u64,
-    /// What was done.
+    /// The recorded calls.
     pub log: Vec<String>,
     shared: BTreeMap<i64, Value>,
 }

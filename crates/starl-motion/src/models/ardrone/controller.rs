@@ -1,8 +1,7 @@
-//! The drone's own controller, which its maker keeps to himself: references for its loops.
+//! A substitute for the drone's own controller, which its maker has not published: references for its loops.
 //!
-//! The real one holds its place with a camera that looks down; here it holds a point, by proportional
-//! and derivative action, which is what integrating its velocity amounts to, and leans into the wind as much as
-//! that pushes it.
+//! The real one holds its place with a camera that looks down; here it holds a point, by proportional and derivative
+//! action, which is equivalent to integrating its velocity, and leans into the wind to compensate its push.
 
 use super::GRAVITY;
 use super::dynamics::{Dynamics, Motion};
@@ -31,8 +30,8 @@ const SPEED_GAIN: f64 = 1.8;
 /// Climb per height left while taking off, times the time constant of the climb: a quarter is
 /// critical damping.
 const HEIGHT_GAIN: f64 = 0.25;
-/// A drone that starts to hold its place chooses the one where it would be after so long, seconds,
-/// so that it brakes without flying back.
+/// A drone that starts to hold its position chooses the one that it would reach after this time, seconds, so that it
+/// brakes without flying back.
 pub(super) const BRAKING_TIME: f64 = 0.6;
 
 impl Dynamics {

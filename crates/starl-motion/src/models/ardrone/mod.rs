@@ -76,7 +76,7 @@ impl Ardrone {
     /// A drone with these parameters.
     ///
     /// # Errors
-    /// Where a parameter is out of its range or exceeds what the drone can do.
+    /// If a parameter is out of its range or exceeds what the drone can do.
     pub fn new(parameters: ArdroneParameters) -> Result<Ardrone, ParameterError> {
         parameters.check_ranges()?;
         let p = &parameters;

@@ -8,7 +8,7 @@ pub const LANDED: u32 = 0;
 pub const TAKING_OFF: u32 = 1;
 /// It holds its place.
 pub const HOVERING: u32 = 2;
-/// It flies at the attitude it is told.
+/// It flies at the commanded attitude.
 pub const FLYING: u32 = 3;
 /// It sinks to the floor.
 pub const LANDING: u32 = 4;

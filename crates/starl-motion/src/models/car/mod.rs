@@ -69,7 +69,7 @@ impl Car {
     /// A car with these parameters.
     ///
     /// # Errors
-    /// Where a parameter is out of its range or the cruise speed exceeds the greatest speed.
+    /// If a parameter is out of its range or the cruise speed exceeds the greatest speed.
     pub fn new(parameters: CarParameters) -> Result<Car, ParameterError> {
         parameters.check_ranges()?;
         let CarParameters {
@@ -105,7 +105,7 @@ fn time_to(value: f64, wanted: f64, rate: f64) -> f64 {
 /// `value` after moving towards `wanted` for `seconds` at `rate`.
 fn towards(value: f64, wanted: f64, rate: f64, seconds: f64) -> f64 {
     let most = rate * seconds;
-    // A rest as small as a rounding error is no way left to go.
+    // A rest as small as a rounding error counts as zero.
     if fabs(wanted - value) <= most * (1.0 + 1e-12) {
         return wanted;
     }

@@ -135,7 +135,7 @@ impl World {
         self.measure();
     }
 
-    /// Moves everything on for so many seconds.
+    /// Advances the world by this number of seconds.
     pub fn run_for(&mut self, seconds: f64) {
         let end = self.seconds() + seconds;
         while self.seconds() < end {

@@ -1,4 +1,4 @@
-//! One robot of the avoidance tests' world: its true state, its pilot, and what it was last told.
+//! One robot of the avoidance tests' world: its true state, its pilot, and its last command.
 
 use super::Placed;
 use starl_core::motion::Estimate;
@@ -58,7 +58,7 @@ impl Robot {
             .request(&MotionRequest::Track { target, next: None });
     }
 
-    /// Makes the robot stand still, which counts as having arrived.
+    /// Stops the robot, which counts as an arrival.
     pub fn halt(&mut self) {
         self.pilot.request(&MotionRequest::Halt);
         self.arrived = true;

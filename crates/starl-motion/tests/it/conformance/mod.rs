@@ -187,7 +187,7 @@ impl<'a> Run<'a> {
         command
     }
 
-    /// One estimate of a robot that is to stand still, and what the model does until the next.
+    /// One estimate of a robot that should be at rest, and the model's motion until the next.
     pub fn rest(&mut self) {
         let estimate = self
             .positioning

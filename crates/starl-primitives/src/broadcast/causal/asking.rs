@@ -20,7 +20,7 @@ pub(super) struct Doubt {
 pub(super) struct Answer {
     /// The life that gives it.
     pub process: Process,
-    /// No message before this one will come.
+    /// No message before this one will arrive.
     pub before: u32,
     /// The number of the next one that will be sent.
     pub next: u32,
@@ -28,7 +28,7 @@ pub(super) struct Answer {
 }
 
 impl Causal {
-    /// Asks a robot what may still come of it, unless that was done just now.
+    /// Asks a robot which of its messages may still arrive, unless this was done recently.
     pub(super) fn ask(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
         let before = self.doubts.get(&peer);
         if before.is_some_and(|doubt| doubt.looks == self.looks) {

@@ -11,7 +11,7 @@ use starl_core::event::messaging::MessageNumber;
 use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{Robot, RobotId};
 
-/// A message that has arrived and is not handed out yet.
+/// A message that has arrived and is not delivered yet.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
     pub arrival: Arrival,
@@ -23,11 +23,11 @@ pub(super) struct Held {
     pub looks: Look,
 }
 
-/// That a message comes after another one.
+/// A dependency of a message on another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Need {
     pub after: After,
-    /// Whether the other one was sent in a life that is over, so that it will not come.
+    /// Whether the other was sent in a life that is over, so that it will not arrive.
     pub is_over: bool,
 }
 
@@ -46,14 +46,14 @@ impl Causal {
         self.looks.wrapping_sub(held.looks)
     }
 
-    /// Something that a message comes after and has to wait for.
+    /// A dependency for which the message must wait.
     pub(super) fn missing(&self, held: &Held) -> Option<After> {
         let mut all = held.after.iter();
         let need = all.find(|need| !self.is_settled(held, need))?;
         Some(need.after)
     }
 
-    /// Whether all that comes before has been handed out or will not come.
+    /// Whether everything that comes before has been delivered or will not come.
     fn is_settled(&self, held: &Held, need: &Need) -> bool {
         if self.is_held(&need.after) {
             return false;
@@ -81,7 +81,7 @@ impl Causal {
         first.is_some_and(|first| first.arrival.number <= after.number)
     }
 
-    /// Hands out all that waits for nothing.
+    /// Delivers all messages without open dependencies.
     pub(super) fn hand_out_ready(&mut self, robot: &mut Robot<'_>) {
         loop {
             let mut firsts = self
@@ -115,7 +115,7 @@ impl Causal {
         self.hand_out_ready(robot);
     }
 
-    /// Hands out a sender's first message; what it comes after and has not come is passed over.
+    /// Delivers a sender's first message; messages before it that have not arrived are skipped.
     fn hand_out(&mut self, robot: &mut Robot<'_>, from: RobotId) {
         let Some(held) = self.held.get_mut(&from).and_then(|held| held.pop_front()) else {
             return;
@@ -164,7 +164,7 @@ impl Causal {
         if !is_missed {
             return;
         }
-        // To a robot that joins late what was sent before is no loss.
+        // A robot that joins late has not lost the messages that were sent before.
         let mut is_joined = self.vector.is_joined(from);
         match self.vector.standing(process) {
             Standing::Present(_) => {

@@ -1,9 +1,9 @@
 //! Causal order by vector clocks (Birman, Schiper and Stephenson 1991; the condition on deliveries as in
 //! Raynal, Schiper and Toueg 1991).
 //!
-//! A message says of each sender up to which of its messages its own sender had taken them. A receiver
-//! holds it back until it has taken as much. Below is the acknowledged protocol in FIFO order, which
-//! says when a message of a sender will not come any more.
+//! A message lists for each sender the last of its messages that its own sender had delivered. A receiver holds it back
+//! until it has delivered as much. Below is the acknowledged protocol in FIFO order, which reports when a message of a
+//! sender will not arrive.
 //!
 //! Invariant: when a message is delivered, every message on which it depends has been delivered, or
 //! passed over permanently, which is recorded. A message that was passed over is not delivered later.
@@ -175,7 +175,7 @@ impl Causal {
             number: number - 1,
         });
         let queue = self.held.entry(from).or_default();
-        // Messages of the sender's earlier life are handed out first.
+        // Messages of the sender's earlier life are delivered first.
         let before = queue.back().map(|last| &last.arrival);
         after.extend(
             before

@@ -1,8 +1,8 @@
-//! Up to where each robot's messages have been taken: a vector clock over robots' lives.
+//! The last delivered message of each robot: a vector clock over robots' lives.
 //!
-//! The protocol below hears a robot's lives one after the other, never going back, so only the present one needs an
-//! entry: nothing of those before it will be handed out any more. Invariant: of a life that is over nothing is
-//! waited for, and a life that is not known to be over is never taken for one that is.
+//! The protocol below hears a robot's lives in order, so only the present one needs an entry: messages of earlier lives
+//! will not be delivered any more. Invariant: no message of a life that is over is waited for, and no life is regarded
+//! as over before this is known.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -21,8 +21,7 @@ pub(super) struct Process {
     pub incarnation: u32,
 }
 
-/// That a message comes after those of a process up to this number; with 0, that it comes after all earlier lives
-/// of the robot.
+/// A dependency on the messages of a process up to this number; with 0, on all earlier lives of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct After {
     pub process: Process,
@@ -81,7 +80,7 @@ pub(super) enum Standing {
     Present(Life),
     /// It is over: messages up to this number were taken or passed over.
     Over(u32),
-    /// Whether it is over or yet to come is not known; messages up to this number were passed over.
+    /// It is unknown whether the life is over or has not begun; messages up to this number were passed over.
     Unknown(Option<u32>),
 }
 
@@ -182,8 +181,8 @@ impl Vector {
         }
     }
 
-    /// The messages that come before one that is sent now. Of each robot that is the life that is heard. As long
-    /// as nothing was taken of it, its earlier lives are listed too.
+    /// The dependencies of a message that is sent now: for each robot its present life, and its earlier lives too until
+    /// a message of the present one was delivered.
     pub fn now(&self) -> Vec<After> {
         let mut all = Vec::new();
         for (&robot, known) in &self.0 {

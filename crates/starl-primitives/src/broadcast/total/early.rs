@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 /// They may take this much room, bytes; the farthest are dropped first.
 const MOST_EARLY: usize = 1 << 18;
 
-/// So many gaps between them are told at once.
+/// The number of gaps between them that one message reports.
 const MOST_GAPS: usize = 16;
 
 /// Part of the leader's log.

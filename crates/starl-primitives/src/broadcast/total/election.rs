@@ -57,7 +57,7 @@ impl Total {
         self.count_votes(robot);
     }
 
-    /// Asks, or asks once more those whose answers may have been lost.
+    /// Asks, or asks again those whose answers may have been lost.
     pub(super) fn send_ask(&mut self, robot: &mut Robot<'_>) {
         let Some(member) = &self.member else { return };
         let &Role::Asking { trial, .. } = &member.role else {

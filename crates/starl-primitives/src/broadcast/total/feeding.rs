@@ -1,5 +1,5 @@
-//! How a leader sends single members what they lack: as much as may be on its way at once, and again what
-//! was lost.
+//! How a leader sends single members their missing entries: as much as may be in transit at once, and lost entries
+//! again.
 //!
 //! A member reports the prefix in which its log equals the leader's, and the missing parts after that. If it
 //! has heard a round well after the leader sent it these parts, they were lost.

@@ -25,11 +25,11 @@ pub(super) struct Leading {
     pub start: u64,
     /// All have been sent the log up to here.
     pub sent: u64,
-    /// The decided part of the log of which all have been told.
+    /// The decided part of the log that all have received.
     pub told: u64,
     /// The decided index at the last ticks, and the round then, the oldest first.
     pub past: [(u64, u64); 4],
-    /// Counts what it has sent, datagrams that were sent together once.
+    /// Counts the rounds of datagrams; datagrams that were sent together count once.
     pub round: u64,
     /// Counts its calls.
     pub calls: u64,
@@ -76,7 +76,7 @@ impl Follower {
         }
     }
 
-    /// Takes note of an answer, which is a sign of life if it has heard a round since this one.
+    /// Records an answer, which is a sign of life if it has heard a round since this one.
     pub fn take_note(&mut self, answer: &Answer, since: u64) {
         if answer.round > since {
             self.silence = 0;
@@ -89,7 +89,7 @@ impl Follower {
 }
 
 impl Member {
-    /// Whether more may be put into the log before what is in it is decided.
+    /// Whether more entries may be added to the log before the present ones are decided.
     pub fn has_room(&self) -> bool {
         self.commit >= self.log.last() || self.log.bytes() < 2 * MOST_BYTES
     }
@@ -132,8 +132,8 @@ impl Member {
         (body, end)
     }
 
-    /// Up to where entries need not be kept: all that are heard of have handed them out, or there are
-    /// too many.
+    /// The index up to which entries can be dropped: all members that are heard have delivered them, or there are too
+    /// many.
     pub fn floor(&self) -> u64 {
         let Role::Leading(leading) = &self.role else {
             return 0;

@@ -1,8 +1,8 @@
 //! Entries that a member gets from its leader and delivers.
 //!
-//! Invariant: what is decided is never dropped from the log before it is handed out, nor replaced; what this
-//! robot has acknowledged to a leader stays in its log as long as that one leads; and messages are handed out in
-//! the order of generation and index, never going back.
+//! Invariant: a decided entry is never replaced, nor dropped from the log before it is delivered. Entries that this
+//! robot has acknowledged to a leader stay in its log as long as that robot leads. Messages are delivered in ascending
+//! order of generation and index.
 
 use super::early::Part;
 use super::life::Life;
@@ -14,7 +14,7 @@ use starl_core::event::messaging::MessageNumber;
 use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{Destination, Payload, Robot};
 
-/// How a leader's log goes on.
+/// The continuation of a leader's log.
 pub(super) struct Continuation {
     pub term: u32,
     pub round: u64,
@@ -25,7 +25,7 @@ pub(super) struct Continuation {
 }
 
 impl Total {
-    /// The leader's log goes on.
+    /// Appends the continuation of the leader's log.
     pub(super) fn append(&mut self, robot: &mut Robot<'_>, from: Life, next: Continuation) {
         let Some(member) = &mut self.member else {
             return;
@@ -88,7 +88,7 @@ impl Total {
         }
     }
 
-    /// Hands out what is decided.
+    /// Delivers the decided entries.
     pub(super) fn apply(&mut self, robot: &mut Robot<'_>) {
         let me = self.life(robot);
         let mut is_own = false;
@@ -134,7 +134,7 @@ impl Total {
         robot.deliver(from, self.port, content);
     }
 
-    /// Others may have been handed messages that this robot will not be.
+    /// Records that others may have delivered messages that this robot will not deliver.
     pub(super) fn miss(&mut self, robot: &mut Robot<'_>) {
         robot.report(self.port, BroadcastEvent::Gap);
         self.gaps.push(Gap { from: None });
@@ -207,7 +207,7 @@ impl Entry {
         }
     }
 
-    /// About how much room it takes in memory, bytes.
+    /// Its approximate size in memory, bytes.
     pub fn room(&self) -> usize {
         64 + self.size()
     }

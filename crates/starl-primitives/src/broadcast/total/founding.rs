@@ -1,4 +1,4 @@
-//! How robots that are in no group come into one: they found it, or are let in.
+//! How robots without a group get into one: they found it, or are admitted.
 //!
 //! Robots keep nothing when they stop, so at its start a robot does not know whether there is a group. All
 //! announce that they are up. A leader that hears this admits the robot. If no leader does, and a majority
@@ -25,7 +25,7 @@ const ATTEMPTS: u32 = 4;
 /// A robot that is about to found a group waits for so many ticks for answers that are missing.
 const MUSTER: u32 = 6;
 
-/// The robots without a group, as far as a robot without a group knows.
+/// The robots without a group, as known to a robot without a group.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Idle {
     /// Ticks since it came to be in none, or last founded one.
@@ -76,7 +76,7 @@ impl Total {
         }
     }
 
-    /// Founds a group of those that have answered, if they are enough.
+    /// Founds a group of the robots that have answered, if they are enough.
     fn found_if_due(&mut self, robot: &mut Robot<'_>) -> bool {
         let Some(muster) = &self.idle.muster else {
             return false;

@@ -83,8 +83,8 @@ impl Total {
         self.replicate(robot, false);
     }
 
-    /// Sends all what is new in the log, unless the last that was sent is not decided: then it is sent with
-    /// what comes meanwhile, as soon as that fills a datagram. A beat is sent in any case.
+    /// Sends new entries of the log to all, unless the last ones sent are not decided: then they are sent later
+    /// together with the following entries, as soon as these fill a datagram. A beat is sent in any case.
     pub(super) fn replicate(&mut self, robot: &mut Robot<'_>, is_beat: bool) {
         self.decide(robot);
         let Some(member) = &mut self.member else {

@@ -13,7 +13,7 @@ pub(super) struct Life {
     pub name: LifeName,
 }
 
-/// Tells the lives of one robot apart.
+/// Distinguishes the lives of one robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) struct LifeName {
     /// Names the robot's start. Its lower half is the incarnation that records know it by; the upper half

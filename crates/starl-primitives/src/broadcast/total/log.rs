@@ -22,7 +22,7 @@ pub(super) struct Log {
 }
 
 impl Log {
-    /// A log that goes on after `base`, with these voters.
+    /// A log that continues after `base`, with these voters.
     pub fn after(base: u64, base_term: u32, voters: Vec<Life>) -> Log {
         Log {
             base,
@@ -125,7 +125,7 @@ impl Log {
         last.map_or(&[], |(_, voters)| voters)
     }
 
-    /// Where that is said.
+    /// The index of the entry that lists them.
     pub fn voters_since(&self) -> u64 {
         self.configurations.back().map_or(0, |(at, _)| *at)
     }

@@ -21,7 +21,7 @@ pub(super) struct Member {
     pub log: Log,
     /// The log is decided up to here.
     pub commit: u64,
-    /// Messages up to here have been handed out.
+    /// Messages up to this index have been delivered.
     pub applied: u64,
     /// The lives that may send up to there.
     pub roll: Roll,
@@ -36,12 +36,12 @@ pub(super) struct Member {
     pub early: Early,
     /// Ticks since the leader was heard; of a leader, since it heard of a quorum.
     pub silence: u32,
-    /// It asks to lead after so many.
+    /// It starts an election after this number of beats.
     pub patience: u32,
     pub role: Role,
     /// Whether a leader of the group was ever heard of.
     pub is_active: bool,
-    /// Voters that have died, or are members of another group for good.
+    /// Voters that have died, or are members of another group permanently.
     pub gone: BTreeSet<Life>,
 }
 
@@ -94,7 +94,7 @@ impl Member {
         voters.filter(|voter| lives.contains(voter)).count() >= self.needed()
     }
 
-    /// A robot has said, when asked, that it is this life. If another one of it votes, that one is gone.
+    /// A robot has answered that it is in this life. If another of its lives is a voter, that life is over.
     pub fn see(&mut self, life: Life, is_elsewhere: bool) {
         let either = [self.log.voters(), self.log.voters_at(self.commit)];
         for voters in either {
@@ -109,7 +109,7 @@ impl Member {
         self.gone.retain(votes);
     }
 
-    /// Whether so many voters are gone that the others will never be enough.
+    /// Whether too many voters have failed for the others to decide ever again.
     pub fn is_dead(&self) -> bool {
         let is_dead = |voters: &[Life]| {
             let left = voters.iter().filter(|voter| !self.gone.contains(voter));
@@ -129,7 +129,7 @@ impl Member {
             && self.roll.is_of(self.log.voters_at(self.applied))
     }
 
-    /// Takes note of a later term.
+    /// Records a later term.
     pub fn enter_term(&mut self, term: u32) {
         if term > self.term {
             self.term = term;
@@ -141,7 +141,7 @@ impl Member {
         }
     }
 
-    /// Someone is in this term; if it is later than this robot's, it leads no more and asks again soon.
+    /// Some robot is in this term; if it is later than this robot's, this robot no longer leads and asks again soon.
     pub fn hear_of(&mut self, term: u32) {
         if term > self.term {
             self.enter_term(term);

@@ -1,8 +1,8 @@
 //! The voters: how new lives are added and replace earlier ones.
 //!
-//! Invariant: any quorum before a change meets any quorum after it, and a change follows only when the last
-//! one is decided (Ongaro and Ousterhout 2014, section 6, which changes one voter at a time for that). As
-//! no fewer than a majority of the founding fleet decide, whole groups of voters may go at once, or come.
+//! Invariant: any quorum before a change meets any quorum after it, and a change follows only when the last one is
+//! decided (Ongaro and Ousterhout 2014, section 6, which changes one voter at a time for that). Because at least a
+//! majority of the founding fleet decides, several voters may be removed or added at once.
 
 use super::life::Life;
 use super::packet::What;
@@ -59,7 +59,7 @@ impl Member {
         self.needed_of(self.log.voters().len())
     }
 
-    /// How many of so many voters decide.
+    /// The number of voters, of this number, that decide.
     pub fn needed_of(&self, voters: usize) -> usize {
         (voters / 2 + 1).max(self.quorum as usize)
     }

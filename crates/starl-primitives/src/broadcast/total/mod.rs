@@ -1,29 +1,26 @@
-//! Total order: all robots are handed the same messages in the same order, by a log on which a majority
-//! agrees.
+//! Total order: all robots deliver the same messages in the same order, by a log on which a majority agrees.
 //!
 //! Within a group this is Raft (Ongaro and Ousterhout 2014), a relative of Viewstamped Replication (Liskov
 //! and Cowling 2012). A leader adds messages to a log. An entry that a majority of the fleet has is
 //! decided, and each robot delivers the decided entries in the order of the log.
 //!
-//! Where ours differs: nothing is kept when a robot stops. A robot that restarts is a different voter without
-//! state. The leader sends it the necessary state, and removes its earlier life from the list of voters. So
-//! no robot votes twice or forgets its acknowledgements, which is the error of replicas that return under
-//! their old names (Michael et al. 2017). The list is an entry of the log itself, and also defines the lives
-//! that may add messages to the log: see [`roll`]. If so many stop at once that the rest can decide nothing
-//! more, the group is dead, which its members find out by asking. Then a majority of the fleet founds the
-//! next group, with an empty log.
+//! Where ours differs: a robot that stops keeps no state. A robot that restarts is a different voter without state. The
+//! leader sends it the necessary state, and removes its earlier life from the list of voters. So no robot votes twice
+//! or forgets its acknowledgements, which is the error of replicas that return under their old names (Michael et al.
+//! 2017). The list is an entry of the log itself, and also defines the lives that may add messages to the log: see
+//! [`roll`]. If so many stop at once that the rest can decide nothing more, the group is dead; its members find this
+//! out by asking. Then a majority of the fleet founds the next group, with an empty log.
 //!
 //! Properties, whatever the network does and whichever robots crash and restart:
-//! - order: no two robots hand out two messages in different orders. Logs are sequences that only grow at
-//!   their decided end, a message is proposed in one group only, and robots go from group to group
-//!   upwards only;
-//! - no gaps: a robot hands out every message between two that it hands out, unless it says that it has a
-//!   gap: because it was away for more than the log holds, or because a group died.
+//! - order: no two robots deliver two messages in different orders. Logs only grow at their decided end, a message is
+//!   proposed in one group only, and robots change only to later groups;
+//! - no gaps: a robot delivers every message between two that it delivers, unless it reports a gap: because it was away
+//!   for longer than the log is kept, or because a group died.
 //!
-//! And where a majority of the fleet is up and linked, and datagrams are not always lost:
-//! - progress: what a robot of that majority broadcasts is handed out by all of it, by the sender too.
+//! If a majority of the fleet is up and connected, and not all datagrams are lost:
+//! - progress: a broadcast of a robot in that majority is delivered by all of it, including the sender.
 //!
-//! A robot without a majority hands out nothing, and says so: [`Total::failed`].
+//! A robot without a majority delivers nothing, and reports it: [`Total::failed`].
 
 mod early;
 mod election;
@@ -63,7 +60,7 @@ const MOST_BYTES: usize = 1 << 21;
 /// Datagrams are not much longer than this, bytes, unless one message is.
 const CHUNK: usize = 1000;
 
-/// So many bytes are sent to one robot, or by one to the leader, before it has answered.
+/// The greatest number of bytes that are sent to one robot, or by one to the leader, before it has answered.
 const WINDOW: usize = 16 * CHUNK;
 
 /// Robots cannot have counted this far ahead.
@@ -95,7 +92,7 @@ pub(super) struct Total {
     idle: Idle,
     /// Counts how often this robot asked to lead.
     ask_number: u32,
-    /// The last message that was handed out.
+    /// The last message that was delivered.
     position: Option<(Generation, u64)>,
     /// The number of this robot's last message.
     last: u32,
@@ -224,7 +221,7 @@ impl Total {
         self.arm(robot);
     }
 
-    /// Takes note of a leader with a majority.
+    /// Records a leader with a majority.
     fn note_contact(&mut self, robot: &mut Robot<'_>) {
         let is_led = self
             .member

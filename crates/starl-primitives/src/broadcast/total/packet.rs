@@ -65,7 +65,7 @@ pub(super) enum Body {
     /// These lives, which are in no group, found one.
     Found {
         generation: Generation,
-        /// So many are needed to decide.
+        /// The number of members that are needed to decide.
         quorum: u32,
         voters: Vec<Life>,
     },
@@ -88,7 +88,7 @@ pub(super) enum Body {
         term: u32,
         is_granted: bool,
     },
-    /// The leader's log goes on like this.
+    /// The leader's log continues like this.
     Append {
         term: u32,
         /// Counts the rounds of this leader.
@@ -113,7 +113,7 @@ pub(super) enum Body {
         through: u64,
         /// After that it lacks these parts: what comes after the first, up to the second.
         lacks: Vec<(u64, u64)>,
-        /// It has handed out messages up to here.
+        /// It has delivered messages up to here.
         applied: u64,
         /// The last call of that term's leader that it has heard; 0 if it has heard none.
         call: u64,

@@ -1,7 +1,7 @@
 //! A robot's own messages on their way into the log.
 //!
 //! Invariant: a message is proposed in one group only. It is settled when it has its place, and fails when
-//! the group is given up or it has waited too long; then it may have a place all the same.
+//! the group is given up or it has waited too long; even then it may have a place.
 
 use super::packet::{Body, Generation, What};
 use super::{CHUNK, Total, WINDOW};
@@ -56,7 +56,7 @@ impl Total {
         message
     }
 
-    /// Proposes everything once more, to a leader that may have seen nothing of it.
+    /// Proposes everything again, to a leader that may have seen nothing of it.
     pub(super) fn propose_anew(&mut self, robot: &mut Robot<'_>) {
         (self.sent, self.waited, self.retry) = (0, 0, FIRST_RETRY);
         self.propose(robot);

@@ -1,10 +1,9 @@
 //! The lives that may add messages at some place of the log, and the last message of each.
 //!
-//! Invariant: a roll follows from the log up to its place alone, and so is the same on all robots. A message
-//! enters the log only on behalf of a life that votes there, and with a greater number than the last of that
-//! life. A life that is replaced never votes again, so its row is dropped with it: what it proposed and
-//! arrives after that has no row to enter by, however late it comes and whichever robot leads. Nothing else is
-//! ever forgotten.
+//! Invariant: a roll follows from the log up to its place alone, and so is the same on all robots. A message enters the
+//! log only on behalf of a life that votes there, and with a greater number than the last of that life. A life that is
+//! replaced never votes again, so its row is dropped with it: proposals of it that arrive later have no row and are
+//! rejected, however late they arrive and whichever robot leads. Other rows are never dropped.
 
 use super::life::Life;
 use super::packet::What;

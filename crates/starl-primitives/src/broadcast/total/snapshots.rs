@@ -1,8 +1,7 @@
-//! How a robot goes on from a place in the log that it did not come to by itself: one that is let in, or one
-//! that was away for longer than the log is kept.
+//! How a robot continues from a position in the log that it has not reached itself: an admitted robot, or one that was
+//! away for longer than the log is kept.
 //!
-//! Invariant: nothing that a member has acknowledged to a leader that may still count on it is dropped from its
-//! log.
+//! Invariant: a member does not drop entries that it has acknowledged to a leader that may still rely on them.
 
 use super::life::{Life, LifeName};
 use super::log::Log;
@@ -12,7 +11,7 @@ use super::{Member, Role, Total};
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot};
 
-/// Where a robot can go on.
+/// Where a robot can continue.
 pub(super) struct Place {
     pub to: LifeName,
     pub call: u64,
@@ -25,7 +24,7 @@ pub(super) struct Place {
 }
 
 impl Total {
-    /// Sends a life what it has to know to go on from here.
+    /// Sends a life the state from which it can continue.
     pub(super) fn send_snapshot(&mut self, robot: &mut Robot<'_>, to: Life) {
         let Some(member) = &mut self.member else {
             return;
@@ -48,7 +47,7 @@ impl Total {
         self.say(robot, Destination::Robot(to.robot), body);
     }
 
-    /// The leader says where this robot can go on.
+    /// The leader says where this robot can continue.
     pub(super) fn go_on(
         &mut self,
         robot: &mut Robot<'_>,
@@ -88,7 +87,7 @@ impl Total {
         self.propose_anew(robot);
     }
 
-    /// A member goes on from a later place, if it has to.
+    /// A member continues from a later place, if it has to.
     fn leap(&mut self, robot: &mut Robot<'_>, place: &Place) {
         let Some(member) = &mut self.member else {
             return;

@@ -25,7 +25,7 @@ impl Draw {
         !self.ballots.contains_key(&peer) && !scene.is_suspected(peer)
     }
 
-    /// Makes sense of what a corruption may have left.
+    /// Repairs states that a corruption may have left.
     pub fn make_plausible(&mut self, scene: &Scene<'_, '_>) {
         let (now, options) = (scene.now(), scene.options);
         self.ballots.retain(|peer, _| scene.others.contains(peer));
@@ -46,7 +46,7 @@ impl Draw {
 }
 
 impl Ballots {
-    /// Draws a ballot and tells it.
+    /// Draws a ballot and sends it.
     pub(super) fn begin(&mut self, scene: &mut Scene<'_, '_>, round: u64) {
         self.round = round;
         self.outcome = None;
@@ -92,7 +92,7 @@ impl Ballots {
         }
     }
 
-    /// The draw goes on: those that have not been heard are asked again.
+    /// Continues the draw: asks silent robots again.
     pub(super) fn repeat(&mut self, scene: &mut Scene<'_, '_>) {
         let (now, round) = (scene.now(), self.round);
         let Some(draw) = &mut self.draw else { return };

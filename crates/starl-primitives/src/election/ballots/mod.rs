@@ -1,4 +1,4 @@
-//! Election by random ballots (thesis, section 3.4.2, which says no more than that).
+//! Election by random ballots (thesis, section 3.4.2, which gives no details).
 //!
 //! Each participant draws a number and sends it to all. A robot that has the ballots of all participants in
 //! the round knows the winner, the one with the greatest. Ties are drawn again, in the next round. The

@@ -1,4 +1,4 @@
-//! Standing for election, and leading.
+//! Being a candidate, and leading.
 //!
 //! Invariant: this robot leads until one term after it sent the latest claim that a majority, including
 //! itself, has granted. A leadership that was given up is never resumed: each leadership has its own epoch.
@@ -52,7 +52,7 @@ impl Leases {
         self.ask(scene);
     }
 
-    /// Asks for votes, for the first time or once more.
+    /// Asks for votes, for the first time or again.
     pub(super) fn ask(&mut self, scene: &mut Scene<'_, '_>) {
         let now = scene.now();
         let Some(claim) = &mut self.claim else { return };
@@ -137,7 +137,7 @@ impl Leases {
             return;
         }
         if self.leads(scene) {
-            // It goes on leading, in an epoch that the other can vote for.
+            // It continues leading, in an epoch that the other can vote for.
             self.stand(scene);
         } else {
             self.give_up(scene);

@@ -1,21 +1,21 @@
 //! Election by the votes of a majority, for an epoch, for the time of a lease.
 //!
-//! A robot that stands claims a new epoch. A vote for it is a promise for the time of a lease: to vote for no
-//! other robot, and never again for an earlier epoch. With the votes of a majority the robot leads, until one
-//! lease after it asked for them; it asks for the same votes repeatedly, and leads as long as it gets them.
-//! Leases are those of Gray and Cheriton (1989), votes those of Raft's terms (Ongaro and Ousterhout 2014) and
-//! of Paxos (Lamport 1998). Raft's pre-vote is not needed: a robot that stands against a leader is refused as
-//! long as the leader's lease runs, and its epoch binds only robots that voted for it.
+//! A candidate claims a new epoch. A vote for it is a promise for the time of a lease: to vote for no other robot, and
+//! never again for an earlier epoch. With the votes of a majority the robot leads, until one lease after it asked for
+//! them; it asks for the same votes repeatedly, and leads as long as it gets them. Leases are those of Gray and
+//! Cheriton (1989), votes those of Raft's terms (Ongaro and Ousterhout 2014) and of Paxos (Lamport 1998). Raft's
+//! pre-vote is not needed: a candidate is refused while the leader's lease runs, and its epoch binds only robots that
+//! voted for it.
 //!
-//! A robot without storage that restarts has forgotten its promises. How it comes to vote again is told in
-//! `recovery.rs`; what one with storage keeps, in `saving.rs`.
+//! A robot without storage that restarts has forgotten its promises. `recovery.rs` describes how it gets its vote back,
+//! and `saving.rs` the state of robots with storage.
 //!
 //! Guarantees and their assumptions:
-//! - one leader in each epoch: on nothing but its number, which names the leader (`epoch.rs`);
-//! - at most one leader at the same true time: on clocks that keep to the options' drift;
-//! - epochs grow from leader to leader: on that too, and on no majority forgetting at once. Where one does,
-//!   it rests on clocks that differ by less than a lease.
-//! - Suspicions, by a failure detector, play no part.
+//! - one leader in each epoch: no assumption, because the number names the leader (`epoch.rs`);
+//! - at most one leader at the same true time: clocks keep to the options' drift;
+//! - epochs grow from leader to leader: the same, and no majority loses its memory at once. If one does, clocks must
+//!   differ by less than a lease.
+//! - Suspicions of failure detectors do not matter.
 
 mod claim;
 mod recovery;

@@ -1,4 +1,4 @@
-//! How a robot that starts comes to vote, although it may have forgotten what it promised before.
+//! How a starting robot gets its vote, although it may have forgotten its earlier promises.
 //!
 //! First it waits silently for one lease, on its own clock: a leader by its forgotten vote no longer leads
 //! after that. Then it asks the others for their promises, and takes the latest epoch as its own promise.
@@ -58,7 +58,7 @@ pub(super) struct Learning {
 /// Another robot's memory, in this robot's time.
 #[derive(Clone, Copy, Debug)]
 struct Answer {
-    /// Whether it remembers all that it promised before this robot started.
+    /// Whether it remembers everything that it promised before this robot started.
     remembers: bool,
     /// It has been up since then, or longer.
     up_since: Time,
@@ -72,7 +72,7 @@ impl Leases {
         matches!(self.stage, Stage::Remembering(_))
     }
 
-    /// Does what is due.
+    /// Performs the due steps.
     pub(super) fn recover(&mut self, scene: &mut Scene<'_, '_>) {
         let now = scene.now();
         let lease = scene.options.lease;
@@ -124,7 +124,7 @@ impl Leases {
         self.begin_if_told(scene);
     }
 
-    /// A robot wants to know what was promised.
+    /// A robot asks for promises.
     pub(super) fn remember(
         &self,
         scene: &mut Scene<'_, '_>,
@@ -156,7 +156,7 @@ impl Leases {
         scene.send(from, Packet::Tell(memory));
     }
 
-    /// A robot says what it remembers.
+    /// A robot answers with its memory.
     pub(super) fn told(&mut self, scene: &mut Scene<'_, '_>, from: RobotId, memory: Memory) {
         self.learn(memory.promised);
         if let Stage::Learning(learning) = &mut self.stage

@@ -1,8 +1,8 @@
 //! A voter's stored state, on robots with storage: the promised epoch, and the latest known one.
 //!
-//! A robot that finds its promise on storage votes and stands at once, and so does one that finds nothing on storage
-//! that never lost anything. All others wait and ask: see `recovery.rs`. How long the promise binds is not kept, since
-//! a restart may set a clock back: it binds for a whole lease from the restart.
+//! A robot that finds its promise on storage votes and is a candidate at once, and so is one that finds nothing on
+//! storage that was never erased. All others wait and ask: see `recovery.rs`. The end of the promise is not stored,
+//! because a restart may set a clock back: it binds for a whole lease from the restart.
 
 use super::recovery::Stage;
 use super::{Leases, Promise};

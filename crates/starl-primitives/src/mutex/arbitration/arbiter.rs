@@ -32,7 +32,7 @@ pub(super) struct Arbiter {
 }
 
 impl Arbiter {
-    /// A robot asks, asks again, or asks to keep what it has.
+    /// A robot requests, repeats its request, or renews its lease.
     pub fn request(&mut self, from: RobotId, wish: Wish, terms: Terms, post: &mut Post) {
         let before = self.entries.len();
         self.expire(terms);
@@ -97,7 +97,7 @@ impl Arbiter {
         }
     }
 
-    /// A robot keeps only some of what it was granted, or nothing.
+    /// A robot keeps only some of its granted resources, or none.
     pub fn release(
         &mut self,
         from: RobotId,
@@ -126,7 +126,7 @@ impl Arbiter {
         self.settle(terms, post);
     }
 
-    /// A robot says what it holds by a grant that was forgotten.
+    /// A robot reports the resources that it holds by a forgotten grant.
     pub fn reinstate(&mut self, from: RobotId, wish: Wish, terms: Terms) {
         let is_over =
             |id: RequestId| id.incarnation == wish.id.incarnation && wish.id.number <= id.number;
@@ -168,7 +168,7 @@ impl Arbiter {
         }
     }
 
-    /// Takes up what was kept over a restart.
+    /// Restores the stored state after a restart.
     pub fn restore(&mut self, kept: Kept, terms: Terms) {
         self.numbers = kept.numbers;
         self.finished = kept.finished.into_iter().collect();
@@ -203,7 +203,7 @@ impl Arbiter {
         });
     }
 
-    /// Grants what can be granted, and tells all others how it stands.
+    /// Grants possible requests, and informs all other waiting robots.
     pub fn settle(&mut self, terms: Terms, post: &mut Post) {
         self.expire(terms);
         for standing in standings(&self.entries, terms.tells) {
@@ -227,7 +227,7 @@ impl Arbiter {
         }
     }
 
-    /// Waiting robots must be told again for which robots they wait.
+    /// Waiting robots must be informed again for which robots they wait.
     pub fn tell_again(&mut self) {
         self.entries
             .values_mut()
@@ -240,7 +240,7 @@ impl Arbiter {
         self.finished.retain(|peer, _| everyone.contains(peer));
     }
 
-    /// Adds what was granted, and what is asked for.
+    /// Adds the granted and the requested resources.
     pub fn add_resources(&self, known: &mut Resources) {
         for entry in self.entries.values() {
             known.extend(entry.wish.resources.iter().cloned());
@@ -322,7 +322,7 @@ impl Arbiter {
     }
 
     /// Tells a robot for which robots it waits, once for each time that it asks. With leases this is unnecessary,
-    /// because the grants of a dead robot end, except for an arbiter that cannot grant anything.
+    /// because the grants of a crashed robot end, except for an arbiter that cannot grant anything.
     fn tell(&mut self, robot: RobotId, behind: RobotId, terms: Terms, post: &mut Post) {
         let entry = self.entries.get_mut(&robot);
         let is_new = |entry: &&mut Entry| entry.told != Some(behind);

@@ -1,4 +1,4 @@
-//! A robot asks, repeats, enters, renews what it holds and gives it back.
+//! The requesting side: request, repeat, enter, renew and release.
 
 use super::super::Resources;
 use super::super::common::{Alarm, Common};
@@ -16,7 +16,7 @@ const RENEWED: u64 = 2;
 const RENEWALS: u64 = 8;
 /// How many repetitions of a request at least, so that what was granted late is known to be recent.
 const REPETITIONS: u64 = 3;
-/// A robot ceases to believe in a lease this long before its end: timers are no more precise.
+/// A robot stops trusting a lease this long before its end: timers are no more precise.
 const MARGIN: Duration = Duration::from_millis(1);
 
 /// The time to the next renewal where so much of a lease is left.
@@ -48,7 +48,7 @@ impl Arbitration {
         }
     }
 
-    /// The participants have changed: what was granted by the old ones does not count among the new ones.
+    /// The participants have changed: grants of the old ones do not count among the new ones.
     pub(super) fn change_list(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let Some(request) = self.request.take() else {
             return;
@@ -57,7 +57,7 @@ impl Arbitration {
         if !request.is_entered {
             return self.make_request(common, robot, clock, resources);
         }
-        // All arbiters learn of what is held, and are told when it is given back.
+        // All arbiters receive the set that is held, and a message when it is released.
         self.request = Some(request.of_others(&self.everyone, self.list));
     }
 
@@ -79,7 +79,7 @@ impl Arbitration {
         self.repeat(common, robot);
     }
 
-    /// Repeats the request, or renews what is held; the first time too.
+    /// Sends the request, repeats it, or renews the lease.
     pub(super) fn repeat(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let (now, enough) = (robot.now(), self.enough(common));
         let mut post = Post::default();
@@ -106,7 +106,7 @@ impl Arbitration {
             return;
         }
         if !request.is_entered && request.may_enter(now, enough, common, &mut post).is_some() {
-            // It would have entered long since: these grants were made up by a fault.
+            // It would have entered long ago: a fault invented these grants.
             request.try_all_anew(common, &mut post);
         }
         request.ask(now, enough, common, &mut post);
@@ -116,7 +116,7 @@ impl Arbitration {
         self.deliver(common, robot, post);
     }
 
-    /// Gives back all that was granted.
+    /// Releases everything granted.
     pub(super) fn give_back(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let mut post = Post::default();
         if let Some(request) = self.request.take() {

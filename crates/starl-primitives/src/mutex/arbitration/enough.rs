@@ -12,13 +12,13 @@ use starl_core::{Duration, RobotId, Time};
 pub(super) enum Enough {
     /// All of those asked, for as long as the robot likes.
     All,
-    /// So many with the same number, for this long after they were asked.
+    /// This number of grants with the same fencing number, for this time after the request.
     Majority(usize, Duration),
 }
 
 impl Request {
-    /// With which number it may enter, and until when; none if it may not yet. Asks for one number for all
-    /// where enough have granted it with different ones.
+    /// The number with which it may enter, and until when; none if it may not yet. Requests one number from all if
+    /// enough have granted different ones.
     pub fn may_enter(
         &mut self,
         now: Time,

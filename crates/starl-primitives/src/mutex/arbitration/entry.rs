@@ -17,7 +17,7 @@ pub(super) struct Entry {
     pub until: Time,
     /// When it was heard of last, or asked whether it is still needed.
     pub heard: Time,
-    /// The number of what was granted.
+    /// The number of the grant.
     pub number: u64,
 }
 
@@ -27,15 +27,15 @@ pub(super) struct Terms {
     pub now: Time,
     /// Lamport's clock.
     pub clock: u64,
-    /// How long it keeps what it hears nothing of; none for ever.
+    /// The time after which a silent grant ends; none for never.
     pub lease: Option<Duration>,
-    /// After so long a silence it asks whether what was granted is still needed.
+    /// The silence after which it asks whether a grant is still needed.
     pub patience: Duration,
-    /// The same for what is waited for.
+    /// The same for waiting requests.
     pub patience_waiting: Duration,
     /// The robot for which it waits before it grants anything; none if it is ready.
     pub unready: Option<RobotId>,
-    /// Whether waiting robots are told for which robots they wait.
+    /// Whether waiting robots receive the names of the robots that they wait for.
     pub tells: bool,
 }
 
@@ -89,7 +89,7 @@ impl Entry {
     }
 }
 
-/// Asks a robot whether it still needs what it was granted.
+/// Asks a robot whether it still needs its grant.
 pub(super) fn inquire(robot: RobotId, entry: &Entry, must_yield: bool, post: &mut Post) {
     let Wish { id, attempt, .. } = entry.wish;
     let inquire = Packet::Inquire {

@@ -63,7 +63,7 @@ impl Arbitration {
         waiting.map(|request| &request.resources)
     }
 
-    /// The number of what is held.
+    /// The fencing number of the held resources.
     pub fn fencing(&self, common: &Common) -> Option<u64> {
         let request = self.request.as_ref();
         let held = request.filter(|request| request.is_entered && is_lease(common));
@@ -114,7 +114,7 @@ impl Arbitration {
         }
     }
 
-    /// A robot is trusted again: it is asked at once, or in place of others that are not.
+    /// A robot is trusted again: it is asked at once, or in place of suspected ones.
     pub fn trusted(&mut self, common: &mut Common, robot: &mut Robot<'_>, peer: RobotId) {
         self.avoid_suspects(common, robot);
         let mut post = Post::default();
@@ -127,7 +127,7 @@ impl Arbitration {
         self.deliver(common, robot, post);
     }
 
-    /// Adds what this robot asks for, and what it has granted or is asked for.
+    /// Adds the resources that this robot requests, has granted, or is asked for.
     pub fn add_resources(&self, known: &mut Resources) {
         if let Some(request) = &self.request {
             known.extend(request.resources.iter().cloned());
@@ -135,7 +135,7 @@ impl Arbitration {
         self.arbiter.add_resources(known);
     }
 
-    /// Overwrites the state at random; `some` are what it comes to ask for.
+    /// Overwrites the state at random; `some` are the resources that it requests afterwards.
     pub fn corrupt(&mut self, random: &mut Random, some: Resources) {
         if let Some(request) = &mut self.request {
             request.corrupt(random, some);

@@ -71,14 +71,13 @@ pub(super) enum Packet {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Wish {
     pub id: RequestId,
-    /// Counts how often it was asked of this arbiter: what was granted to an earlier attempt is given
-    /// back.
+    /// Counts the attempts with this arbiter: a grant to an earlier attempt is returned.
     pub attempt: u32,
     /// Counts repetitions.
     pub round: u32,
-    /// When it was first asked, on Lamport's clock: what was asked earlier is given first.
+    /// The Lamport time of the first request: earlier requests are granted first.
     pub clock: u64,
-    /// The grant is to have this number at least.
+    /// The least number of the grant.
     pub number: u64,
     /// Whether the robot holds the resources, by this number.
     pub is_entered: bool,
@@ -90,7 +89,7 @@ pub(super) struct Wish {
 /// The robot or arbiter that a request waits for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Behind {
-    /// This robot holds or wants one of the resources, or is to tell the arbiter what it had granted.
+    /// This robot holds or requests one of the resources, or must report the arbiter's earlier grants.
     Robot(RobotId),
     /// The arbiter knows other participants.
     OtherList,

@@ -13,7 +13,7 @@ impl Post {
         self.0.push_back((to, packet));
     }
 
-    /// Takes out what is to be said to all others alike: that is one datagram.
+    /// Takes the packet that goes to all others, as one datagram.
     pub fn for_all(&mut self, robot: &Robot<'_>) -> Option<Packet> {
         let me = robot.id();
         let (_, first) = self.0.iter().find(|(to, _)| *to != me)?;

@@ -11,7 +11,7 @@ use starl_core::random::hash_key;
 use starl_core::{Robot, RobotId};
 
 impl Arbitration {
-    /// Begins what has to be begun: see [`recovery`]. Called with every input.
+    /// Starts the necessary steps: see [`recovery`]. Called with every input.
     pub fn look(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let is_same = match &common.participants {
             None => self.everyone == robot.fleet(),
@@ -32,7 +32,7 @@ impl Arbitration {
             // A robot that does not participate is not an arbiter.
             self.recovery.is_ready = true;
         } else if is_first && self.restore(common, robot) {
-            // It goes on where it was.
+            // It continues where it was.
         } else if !is_same || self.recovery.is_idle() {
             let nonce = robot.random().bits() ^ common.incarnation.of(robot);
             self.recovery.begin(nonce, robot.now(), is_change);
@@ -50,7 +50,7 @@ impl Arbitration {
         self.deliver(common, robot, post);
     }
 
-    /// An answer has come.
+    /// An answer has arrived.
     pub(super) fn hear_answer(
         &mut self,
         common: &mut Common,
@@ -152,7 +152,7 @@ impl Arbitration {
             holds,
             number: match remembers {
                 true => known,
-                // It may have forgotten numbers that went on from its time.
+                // It may have forgotten numbers that continued from its time.
                 false => known.max(number_at(robot.now())),
             },
             remembers,

@@ -1,4 +1,4 @@
-//! How an arbiter that remembers nothing comes to be one: it asks the others what it had granted.
+//! How an arbiter without memory becomes ready: it asks the others for its earlier grants.
 //!
 //! A robot cannot tell its first start from a restart, so every robot does this once. Until it is ready it
 //! grants nothing.
@@ -6,7 +6,7 @@
 //! When all others have answered, no robot can enter by a forgotten grant: they have reported what they hold,
 //! and waiting robots have begun another attempt, for which such a grant is invalid. Without leases this is
 //! necessary and sufficient. With leases one lease of silence has the same effect, and only the numbers are
-//! missing. So the robot asks once more: robots that granted the rest may have learned a number of a forgotten
+//! missing. So the robot asks again: robots that granted the rest may have learned a number of a forgotten
 //! grant after they had answered. A majority knows every number with which a robot has entered. So the robots
 //! with memory that have answered must be so many that every majority contains one of them. Clocks play no part
 //! in this.
@@ -14,7 +14,7 @@
 //! If there cannot be so many, because a majority has forgotten, the last number may be unknown. A robot assumes
 //! this only if it has seen it: a majority, including itself, that remembered nothing at one moment, because each
 //! reported this in the same life before it and after it. This is also the case when the fleet is new. Then numbers
-//! continue from the time in milliseconds, the latest of those that have forgotten: no counting is as fast, so they
+//! continue from the time in milliseconds, the latest among those that have forgotten: no counting is as fast, so they
 //! grow unless clocks are wrong. The robot waits for silent robots, whether they are down or disconnected.
 //!
 //! After a change of participants all of the new ones must answer, after they have changed too: two
@@ -33,7 +33,7 @@ pub(super) struct Recovery {
     /// None before it has begun.
     begun: Option<Begun>,
     pub is_ready: bool,
-    /// Whether it has been ready since the robot started, so that it knows what it has granted.
+    /// Whether it has been ready since the robot's start, so that it knows its grants.
     pub remembers: bool,
 }
 
@@ -91,7 +91,7 @@ impl Recovery {
         self.begun.as_mut().filter(|_| !is_ready)
     }
 
-    /// Whether it has asked for so long.
+    /// Whether it has asked for this long.
     pub fn has_asked_for(&self, span: Duration, now: Time) -> bool {
         let begun = self.begun.as_ref();
         begun.is_some_and(|begun| now.since(begun.since) >= span)
@@ -125,7 +125,7 @@ impl Recovery {
             .collect()
     }
 
-    /// Whether all must be asked once more: when no robot can enter by a forgotten grant any longer, and later when
+    /// Whether all must be asked again: when no robot can enter by a forgotten grant any longer, and later when
     /// a robot has forgotten since it was asked.
     pub fn ends_stage(&mut self, now: Time, others: &[RobotId], lease: Duration) -> bool {
         let all = self.silent(others).is_empty();
@@ -158,7 +158,7 @@ impl Recovery {
         Some(next.since(now).max(least))
     }
 
-    /// Takes an answer, with the life of a robot that has forgotten; false if it is to another question.
+    /// Handles an answer, with the life of a robot that has forgotten; false if it answers another question.
     pub fn hear(&mut self, from: RobotId, nonce: u32, forgot: Option<u32>) -> bool {
         match self.asking() {
             Some(begun) if begun.nonce == nonce => {

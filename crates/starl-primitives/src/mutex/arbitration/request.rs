@@ -21,7 +21,7 @@ pub(super) struct Request {
     pub id: RequestId,
     pub clock: u64,
     pub resources: Resources,
-    /// When it was granted the robot came to hold the resources.
+    /// Whether the robot has entered with this grant.
     pub is_entered: bool,
     /// With this number at least, or exactly once it is entered.
     pub number: u64,
@@ -72,7 +72,7 @@ impl Request {
         }
     }
 
-    /// The same request of these arbiters, whatever those among them have answered.
+    /// The same request to these arbiters, without their earlier answers.
     pub fn of_others(mut self, arbiters: &[RobotId], list: u32) -> Request {
         self.asked.retain(|arbiter, _| arbiters.contains(arbiter));
         for &arbiter in arbiters {
@@ -82,7 +82,7 @@ impl Request {
         self
     }
 
-    /// All that were asked.
+    /// All asked arbiters.
     pub fn arbiters(&self) -> impl Iterator<Item = RobotId> {
         self.asked.keys().copied()
     }
@@ -109,7 +109,7 @@ impl Request {
         }
     }
 
-    /// Asks again: those that have not granted it, or all whose grants end.
+    /// Asks again the arbiters that have not granted it, or all whose grants end.
     pub fn ask(&mut self, now: Time, enough: Enough, common: &Common, post: &mut Post) {
         self.round = self.round.wrapping_add(1);
         self.sent.push_back((self.round, now));
@@ -214,7 +214,7 @@ impl Request {
         }
     }
 
-    /// Begins another attempt with an arbiter: what it granted is given back.
+    /// Starts another attempt with an arbiter: its grant is returned.
     pub fn try_anew(&mut self, arbiter: RobotId, common: &Common, post: &mut Post) {
         if let Some(asked) = self.asked.get_mut(&arbiter) {
             *asked = Asked {
@@ -232,7 +232,7 @@ impl Request {
         }
     }
 
-    /// Overwrites the state at random; `some` are what it comes to ask for.
+    /// Overwrites the state at random; `some` are the resources that it requests afterwards.
     pub fn corrupt(&mut self, random: &mut Random, some: Resources) {
         self.resources = some;
         self.is_entered = random.chance(0.5);

@@ -1,11 +1,11 @@
 //! An arbiter's stored state over a restart, on robots with storage: its grants, the ended requests, and its
 //! numbers.
 //!
-//! An arbiter that finds its grants on storage goes on at once, and so does one that finds nothing on storage that
-//! never lost anything. All others ask what they had granted: see [`super::recovery`]. A lease that was granted
-//! before the restart counts from the restart, which can only make it longer.
+//! An arbiter that finds its grants on storage continues at once, and so does one that finds nothing on storage that
+//! was never erased. All others ask for their earlier grants: see [`super::recovery`]. A lease that was granted before
+//! the restart counts from the restart, which can only make it longer.
 //!
-//! Requests that wait are not kept: they are repeated.
+//! Waiting requests are not stored: they are repeated.
 
 use super::super::common::{Common, RequestId};
 use super::super::lease::Numbers;
@@ -21,7 +21,7 @@ const GRANTS: &str = "grants";
 /// The stored state.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Kept {
-    /// Stands for the participants.
+    /// A hash of the participants.
     pub list: u32,
     /// The grants: robot, request and number.
     pub grants: Vec<(RobotId, Wish, u64)>,
@@ -31,7 +31,7 @@ pub(super) struct Kept {
 }
 
 impl Arbitration {
-    /// Takes up what storage holds, when the robot starts; whether that is all that there was.
+    /// Restores the stored state when the robot starts; returns whether it is complete.
     pub(super) fn restore(&mut self, common: &Common, robot: &mut Robot<'_>) -> bool {
         let Some(saved) = robot.saved() else {
             return false;
@@ -50,7 +50,7 @@ impl Arbitration {
         true
     }
 
-    /// Saves what has changed.
+    /// Saves changes.
     pub fn save(&mut self, common: &Common, robot: &mut Robot<'_>) {
         if !self.recovery.is_ready || self.everyone.binary_search(&robot.id()).is_err() {
             return;

@@ -12,15 +12,15 @@ use starl_core::RobotId;
 #[derive(Debug)]
 pub(super) struct Standing {
     pub robot: RobotId,
-    /// An earlier request that it waits for, if the robot is still to be told of one.
+    /// An earlier request that it waits for, if the robot has not been informed of it yet.
     pub behind: Option<RobotId>,
     /// Whether it is its turn, and nothing in the way.
     pub is_next: bool,
-    /// Later requests that have been granted some of what it wants.
+    /// Later requests that have been granted some of its resources.
     pub granted_before_it: Vec<RobotId>,
 }
 
-/// All waiting requests, the earliest first; `tells` if robots are told for which they wait.
+/// All waiting requests, the earliest first; `tells` if waiting robots learn for which robots they wait.
 pub(super) fn standings(entries: &BTreeMap<RobotId, Entry>, tells: bool) -> Vec<Standing> {
     let mut order: Vec<(RobotId, &Entry)> =
         entries.iter().map(|(&id, entry)| (id, entry)).collect();

@@ -1,17 +1,17 @@
-//! Leases: what is granted ends by itself, so that a holder may die (Gray and Cheriton 1989); and numbers,
-//! so that what a holder does that does not know its end can be told from what the next one does.
+//! Leases: a grant ends by itself, so that a holder may crash (Gray and Cheriton 1989); and fencing numbers, so that
+//! actions of a holder that does not know the end of its lease can be distinguished from those of the next holder.
 //!
 //! An arbiter's lease begins, by the arbiter's clock, when it hears a request; the robot counts it, by its
 //! own clock, from when it sent the request, and shorter by what two clocks can differ in running. So the
 //! robot's belief ends before the arbiter's lease, however long messages take.
 //!
-//! A grant's number is greater than all that its arbiter has given or heard of before for one of the
-//! resources. A robot enters when a majority has granted it the same number (it asks those with lower ones
-//! to raise theirs). Two majorities share an arbiter, so of two robots the one that it granted the resource
-//! later has the greater number, and that follows from no clock. A storage or a motor that refuses lower
-//! numbers than it has seen (the sequencers of Burrows 2006; fencing tokens, Kleppmann 2016) is safe even where
-//! clocks break their bound and a robot acts on a lease that has ended.
-//! The last [`BITS`] of a number are the robot's own, so that no two robots can ever have the same.
+//! A grant's number is greater than all numbers that its arbiter has given or heard of for one of the resources. A
+//! robot enters when a majority has granted it the same number (it asks those with lower ones to raise theirs). Two
+//! majorities share an arbiter, so of two robots the one that it granted the resource later has the greater number, and
+//! this does not depend on clocks. A storage or a motor that refuses lower numbers than it has seen (the sequencers of
+//! Burrows 2006; fencing tokens, Kleppmann 2016) is safe even where clocks break their bound and a robot acts on a
+//! lease that has ended. The last [`BITS`] of a number are the robot's own, so that no two robots can ever have the
+//! same.
 
 use super::{Options, Resources};
 use alloc::boxed::Box;
@@ -85,7 +85,7 @@ impl Numbers {
         number
     }
 
-    /// Takes note of a number.
+    /// Records a number.
     pub fn learn(&mut self, resources: &Resources, number: u64) {
         if number > GREATEST {
             return;
@@ -114,7 +114,7 @@ impl Numbers {
     }
 }
 
-/// Numbers beyond this are greater than all that were given before `now`, if each took a millisecond.
+/// A number greater than all numbers given before `now`, if each took a millisecond.
 pub(super) fn number_at(now: Time) -> u64 {
     (now.0 / 1_000_000).saturating_mul(1 << BITS)
 }

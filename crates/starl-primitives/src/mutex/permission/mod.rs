@@ -1,8 +1,7 @@
 //! Every other robot permits a request (Ricart and Agrawala 1981), with sets of resources as in the thesis.
 //!
-//! A request goes to all participants; each permits it unless it has or earlier asked for one of the same
-//! resources, and then permits it when it has given those back. A request that all have permitted is
-//! granted.
+//! A request goes to all participants. Each permits it, or, if it holds or has earlier requested one of the same
+//! resources, permits it after releasing them. A request that all have permitted is granted.
 //!
 //! Where it differs: requests are repeated until they are permitted, so it tolerates loss, duplication and
 //! reordering without another protocol below. If a waiting robot permits a request of a restarted or
@@ -141,7 +140,7 @@ impl Permission {
         }
     }
 
-    /// Sends the request once more.
+    /// Sends the request again.
     pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>, alarm: Alarm) {
         if alarm != Alarm::Repeat {
             return;
@@ -172,7 +171,7 @@ impl Permission {
         }
     }
 
-    /// Overwrites the state at random; `some` are what it comes to ask for.
+    /// Overwrites the state at random; `some` are the resources that it requests afterwards.
     pub fn corrupt(&mut self, random: &mut Random, some: Resources) {
         self.deferred.retain(|_, _| random.chance(0.5));
         if let Some(waiting) = &mut self.waiting {

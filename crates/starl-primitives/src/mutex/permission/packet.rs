@@ -25,7 +25,7 @@ pub(super) struct Wish {
     /// Counts how often permissions were requested again. The sender of an answer to an earlier
     /// attempt may have forgotten it.
     pub attempt: u32,
-    /// When it was first asked, on Lamport's clock: what was asked earlier is given first.
+    /// The Lamport time of the first request: earlier requests are granted first.
     pub clock: u64,
     pub resources: Resources,
 }

@@ -17,9 +17,8 @@ fn columns(count: usize) -> usize {
     if count < 4 { root } else { root.min(count / 2) }
 }
 
-/// A quorum for this robot in which none of `avoided` is; none if there is no such quorum. The participants
-/// are in the order of their numbers. The robot itself is in it, if it can be: its own grant costs
-/// nothing.
+/// A quorum for this robot without `avoided` robots; none if there is no such quorum. The participants are in the order
+/// of their numbers. The robot itself is in it, if it can be: its own grant costs nothing.
 pub(super) fn quorum(
     everyone: &[RobotId],
     me: RobotId,

@@ -31,7 +31,7 @@ impl Crosser {
         Crosser::made(participants, pause_ms, true)
     }
 
-    /// Robots that come when they are told to, and have nothing but the barrier.
+    /// Robots that arrive on command, with the barrier as their only primitive.
     #[allow(dead_code, reason = "the benchmarks use it")]
     pub fn bare() -> impl Fn() -> Box<dyn Program> {
         Crosser::made(None, None, false)
@@ -60,7 +60,7 @@ timers! {
     }
 }
 
-/// Tells a robot to come to the barrier.
+/// Makes a robot arrive at the barrier.
 pub fn arrive() -> Command {
     Command::Arrive
 }

@@ -56,10 +56,10 @@ timers! {
     }
 }
 
-/// Tells a robot to stand for election.
+/// Makes a robot a candidate.
 pub const ELECT: Command = Command::Elect;
 
-/// Tells a robot to resign.
+/// Makes a robot resign.
 pub const RESIGN: Command = Command::Resign;
 
 fn watch() -> FailureDetector {

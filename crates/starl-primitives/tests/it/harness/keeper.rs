@@ -1,5 +1,4 @@
-//! A program that reads and writes registers at random, or as a test tells it to; and whether what its
-//! events say is linearizable.
+//! A program that reads and writes registers at random, or on command; and a check that its events are linearizable.
 
 use super::World;
 use starl_core::event::{PrimitiveEvent, RegisterEvent};
@@ -75,7 +74,7 @@ pub fn update(value: u32) -> Command {
     Command::Update(value)
 }
 
-/// Tells a robot to withdraw what it began last.
+/// Tells a robot to withdraw its last operation.
 pub fn withdraw() -> Command {
     Command::Withdraw
 }

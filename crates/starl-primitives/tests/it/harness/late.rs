@@ -4,7 +4,7 @@ use super::World;
 use starl_core::{Destination, Duration, Event, Input, Message, Random, RobotId, Time};
 use std::collections::BTreeMap;
 
-/// Makes late copies of what a world sends. A copy of a datagram that the wire lost is one that was held back.
+/// Makes late copies of a world's datagrams. A copy of a datagram that the wire lost is a delayed datagram.
 pub struct LateCopies {
     share: f64,
     longest: Duration,
@@ -16,7 +16,7 @@ pub struct LateCopies {
 }
 
 impl LateCopies {
-    /// This share of the datagrams that each robot is sent arrives once more, within `longest`.
+    /// This share of the datagrams that each robot is sent arrives again, within `longest`.
     pub fn new(share: f64, longest: Duration, seed: u64) -> LateCopies {
         LateCopies {
             share,
@@ -28,7 +28,7 @@ impl LateCopies {
         }
     }
 
-    /// Hands over what is due, and makes copies of what was sent since the last call.
+    /// Delivers due copies, and makes copies of the datagrams sent since the last call.
     pub fn step(&mut self, world: &mut World) {
         while let Some((&key, _)) = self.waiting.first_key_value()
             && key.0 <= world.now

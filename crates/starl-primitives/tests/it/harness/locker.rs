@@ -35,7 +35,7 @@ impl Locker {
         Locker::made(algorithm, is_busy, true)
     }
 
-    /// Robots that ask when they are told to, and have nothing but the mutex.
+    /// Robots that request on command, with the mutex as their only primitive.
     #[allow(dead_code, reason = "the benchmarks use it")]
     pub fn bare(algorithm: Algorithm) -> impl Fn() -> Box<dyn Program> {
         Locker::made(algorithm, false, false)
@@ -88,12 +88,12 @@ fn bits(resources: &[&str]) -> u32 {
     resources.iter().filter_map(bit).map(|bit| 1 << bit).sum()
 }
 
-/// Tells a robot to ask for these.
+/// Makes a robot request these.
 pub fn acquire(resources: &[&str]) -> Command {
     Command::Acquire(bits(resources))
 }
 
-/// Tells a robot to give these back.
+/// Makes a robot release these.
 pub fn release(resources: &[&str]) -> Command {
     Command::Release(bits(resources))
 }
@@ -172,8 +172,8 @@ pub fn asked(algorithm: Algorithm, count: usize) -> f64 {
     sizes.sum::<usize>() as f64 / count as f64
 }
 
-/// All robots ask for random sets whenever they hold nothing, and keep what they get for 150 ms. Gives how often
-/// each robot has come to hold something.
+/// All robots request random sets whenever they hold none, and hold them for 150 ms. Returns the number of entries of
+/// each robot.
 pub fn contend(world: &mut World, span: Duration) -> Vec<usize> {
     const STEP: Duration = Duration::from_millis(50);
     let robots = world.size();
@@ -257,8 +257,8 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
     counted.collect()
 }
 
-/// Judges only the numbers of a run by its events: no resource is entered with the same number twice. Gives how
-/// often two robots held one resource at once.
+/// Judges only the numbers of a run by its events: no resource is entered with the same number twice. Returns
+/// how often two robots held one resource at once.
 pub fn numbers(world: &World) -> usize {
     let mut numbers: BTreeSet<(String, u64)> = BTreeSet::new();
     let mut holders: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();

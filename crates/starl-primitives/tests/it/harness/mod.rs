@@ -131,14 +131,14 @@ impl World {
         self.fleet.restart(robot, agent);
     }
 
-    /// The storage of a robot that is down loses all that it holds.
+    /// Erases the storage of a robot that is down.
     pub fn lose_storage(&mut self, robot: usize) {
         if let Some(store) = &mut self.robots[robot].store {
             store.crash(true);
         }
     }
 
-    /// A robot's clock is ahead by so many nanoseconds.
+    /// Sets a robot's clock ahead by this number of nanoseconds.
     pub fn set_clock_ahead(&mut self, robot: usize, nanoseconds: i64) {
         let node = &mut self.robots[robot].node;
         let offset = nanoseconds;
@@ -172,7 +172,7 @@ impl World {
         self.wire.cut.clear();
     }
 
-    /// Time goes on by this span. No program fails.
+    /// Advances time by this span. No program fails.
     pub fn run_for(&mut self, span: Duration) {
         self.fleet.run_for(span);
         for robot in 0..self.size() {
@@ -186,7 +186,7 @@ impl World {
         (!node.condition().down).then(|| node.program())
     }
 
-    /// The same, as what it is: tests look into their own programs.
+    /// The same with its concrete type, for inspection by tests.
     pub fn inspect<P: 'static>(&self, robot: usize) -> &P {
         let program = self.program(robot).expect("the robot is up");
         let program = program.inspect().and_then(|any| any.downcast_ref());
@@ -198,7 +198,7 @@ impl World {
         self.fleet.corrupt(robot, &mut random);
     }
 
-    /// Tells the program of a robot to do something: see [`Talker`].
+    /// Sends a command to the program of a robot: see [`Talker`].
     pub fn command(&mut self, robot: usize, command: impl Timer) {
         let key = TimerKey::new(Port::PROGRAM, command);
         self.input(robot, &Input::Timer(key));
@@ -227,7 +227,7 @@ impl World {
         self.payloads_from(0)
     }
 
-    /// The contents of the datagrams that were sent since there were so many records.
+    /// The contents of the datagrams sent after this number of records.
     pub fn payloads_from(&self, records: usize) -> Vec<Payload> {
         let records = self.records[records..].iter();
         let payloads = records.filter_map(|(_, _, event)| match event {

@@ -16,7 +16,7 @@ pub struct Bench {
     pub now: Time,
     pub body: Body,
     pub known: Obstacles,
-    /// All that was asked of the planner, in order.
+    /// All requests to the planner, in order.
     pub plans: Vec<PlanRequest>,
     /// The waypoint tracked and the one after it; none once halted.
     pub tracked: Option<(Point, Option<Point>)>,

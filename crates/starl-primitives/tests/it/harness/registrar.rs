@@ -24,7 +24,7 @@ impl Registrar {
         Registrar::made(is_busy, true, options)
     }
 
-    /// Robots that register when they are told to, and have nothing but the registration.
+    /// Robots that register on command, with the registration as their only primitive.
     #[allow(dead_code, reason = "the benchmarks use it")]
     pub fn bare(options: Options) -> impl Fn() -> Box<dyn Program> {
         Registrar::made(false, false, options)
@@ -140,7 +140,8 @@ struct Life {
 }
 
 /// Judges a run by its events: agreement, exclusion, soundness and order, as the primitive promises them.
-/// Crashes are given, since they leave no event, each with the number of records before it. Gives how many lists were shown.
+/// Crashes are given, since they leave no event, each with the number of records before it. Returns how many lists were
+/// shown.
 pub fn judge(world: &World, crashes: &[(usize, u32)], apart: Duration) -> usize {
     let mut lives: BTreeMap<RobotId, Life> = BTreeMap::new();
     // By name: the robots that have accepted a list, in which life, registered.

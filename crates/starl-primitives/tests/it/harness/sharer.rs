@@ -1,4 +1,4 @@
-//! A program that writes shared memory as a test tells it to.
+//! A program that writes shared memory on command.
 
 use super::{Wire, World};
 use starl_core::timer::{Timer, Token};
@@ -10,7 +10,7 @@ use std::any::Any;
 #[derive(Clone, Primitives)]
 pub struct Sharer {
     pub memory: SharedMemory,
-    /// So many variables are causal, from `x0` on.
+    /// The number of causal variables, from `x0` on.
     causal: u16,
 }
 
@@ -19,7 +19,7 @@ impl Sharer {
         Sharer::causal(options, 0)
     }
 
-    /// One of whose variables so many are causal.
+    /// A sharer with this number of causal variables.
     pub fn causal(options: Options, causal: u16) -> impl Fn() -> Box<dyn Program> {
         move || {
             let memory = SharedMemory::new("memory", options);

@@ -44,7 +44,7 @@ pub struct Aftermath {
     pub restarts: usize,
 }
 
-/// How time passes: so much at once.
+/// The time step.
 const STEP: Duration = Duration::from_millis(10);
 
 impl Storm {
@@ -131,7 +131,7 @@ impl Aftermath {
                 match step {
                     Step::Handed(id) => {
                         if !handed.insert(*id) {
-                            return Some(format!("robot {robot} was handed {id:?} twice"));
+                            return Some(format!("robot {robot} delivered {id:?} twice"));
                         }
                         if !sent.contains(id) {
                             return Some(format!("{id:?} was never sent"));
@@ -156,7 +156,7 @@ impl Aftermath {
         has_cycle(&next).then(|| "there is no order that all were handed".into())
     }
 
-    /// How many messages were handed to all robots that were up from then on.
+    /// The number of messages delivered to all robots that were up from then on.
     pub fn handed_to_all(&self, since: Time) -> usize {
         let mut count: BTreeMap<Id, usize> = BTreeMap::new();
         let mut fresh = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! A program that sends what a test tells it to, and reports what it receives.
+//! A program that sends messages on command, and reports received ones.
 
 use starl_core::timer::{Timer, Token};
 use starl_core::{Area, Message, Point, Primitives, Program, Robot, RobotId, TimerKey, message};

@@ -24,8 +24,7 @@ pub struct Teller {
 }
 
 impl Teller {
-    /// Robots that send so many messages by themselves after each start, with this likelihood in each
-    /// activation.
+    /// Robots that send this number of messages after each start, with this probability in each activation.
     pub fn boxed(order: Order, count: u32, likelihood: f64) -> impl Fn() -> Box<dyn Program> {
         move || {
             Box::new(Teller {
@@ -167,8 +166,8 @@ pub fn sequences(runs: &[(u32, Vec<(usize, Step)>)], seed: u64) -> Vec<(u32, Vec
     all
 }
 
-/// Whether each sender's messages are handed out as they were sent, and none of a life after one of another
-/// life that was handed out later than one of it.
+/// Whether each sender's messages are delivered in the order of sending, and the messages of its lives do not
+/// alternate.
 pub fn is_fifo(sequence: &[Id]) -> bool {
     let mut last: BTreeMap<u32, (u32, u32)> = BTreeMap::new();
     let mut over: BTreeSet<(u32, u32)> = BTreeSet::new();
@@ -224,7 +223,7 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
                     mark.is_some_and(|mark| *mark >= id.2)
                 };
                 if is_over(id) {
-                    return Some(format!("{id:?} was handed to {me} after a later life's"));
+                    return Some(format!("{id:?} was delivered by {me} after a later life's"));
                 }
                 if is_passed(id) {
                     return Some(format!("{id:?} was passed over and handed to {me}"));
@@ -233,7 +232,7 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
                 let missing = before
                     .find(|b| b.0 != me && !known[run].contains(b) && !is_passed(b) && !is_over(b));
                 if let Some(missing) = missing {
-                    return Some(format!("{id:?} was handed to {me} before {missing:?}"));
+                    return Some(format!("{id:?} was delivered by {me} before {missing:?}"));
                 }
                 let before = past[id].clone();
                 known[run].extend(before);
@@ -244,8 +243,8 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
     None
 }
 
-/// Two messages that two runs were handed in different orders, or one that a run should have been handed
-/// between two others.
+/// Two messages that two runs delivered in different orders, or one that a run should have delivered between two
+/// others.
 pub fn total_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
     let places: Vec<(u32, Vec<Id>, BTreeMap<Id, usize>)> = runs
         .iter()
@@ -291,7 +290,7 @@ pub fn total_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
 }
 
 /// Runs a fleet of robots that each send for a while, while faults strike at random until `calm`, then
-/// for `calm` more. Gives when robots started again.
+/// for `calm` more. Returns when robots restarted.
 pub fn trouble(world: &mut World, robots: usize, seed: u64, span: Duration) -> Vec<(Time, u32)> {
     let mut random = Random::keyed(seed, &[77]);
     let mut starts = Vec::new();

@@ -1,4 +1,4 @@
-//! A program that does nothing but watch the others, and notes what it is told of them.
+//! A program that only watches the others, and records the verdicts of its detector.
 
 use super::World;
 use starl_core::{Input, Port, Primitive, Primitives, Program, Random, Robot, RobotId};

@@ -5,7 +5,7 @@ use starl_core::motion::{Body, Workspace};
 use starl_core::{Area, Destination, Duration, Obstacle, Point, Port, Pose, Record, RobotId, Time};
 use starl_properties::{Checker, Excuse, Setting, Violation, Watch, checkers};
 
-/// The engine's step: how often checkers are told the time.
+/// The engine's step: how often checkers receive the time.
 const STEP_MS: u64 = 25;
 
 /// A ground robot.
@@ -54,7 +54,7 @@ impl Story {
         }
     }
 
-    /// Of so many ground robots in an empty world.
+    /// A story of this number of ground robots in an empty world.
     pub fn of_ground_robots(robots: usize) -> Story {
         Story::of(&vec![GROUND; robots])
     }
@@ -258,7 +258,7 @@ impl Story {
         )
     }
 
-    /// A robot comes to hold a resource for a lease, with a number, if clocks run wrong by 0.01 at most.
+    /// A robot gets a resource for a lease, with a number, for clocks with a drift of at most 0.01.
     pub fn leases(
         &mut self,
         millis: u64,
@@ -291,8 +291,7 @@ impl Story {
         self.record(millis + 30, Some(to), delivered)
     }
 
-    /// The verdict at the end of a run that lasts so long. It is the same for a run that is watched
-    /// step by step and for a trace that is read at once.
+    /// The verdict at the end of a run of this length. It is the same for a live run and for a trace.
     pub fn verdict(&self, end: u64) -> Vec<Violation> {
         let mut records = self.records.clone();
         records.sort_by_key(|record| (record.at, record.robot));

@@ -67,7 +67,7 @@ const FIRST: &[Field] = &[
         "groups",
         Kind::RobotGroups,
         Default::Depends("required for `partition` and `one_way`"),
-        "The parts of the fleet; robots in none of them form one more.",
+        "The parts of the fleet; all other robots form one more part.",
     ),
     field(
         "robot",

@@ -39,7 +39,7 @@ pub(super) const FAULT: &[Field] = &[
         "groups",
         Kind::RobotGroups,
         Default::Depends("required for `partition` and `one_way`, not for others"),
-        "The parts of the fleet; robots in none of them form one more.",
+        "The parts of the fleet; all other robots form one more part.",
     ),
 ];
 

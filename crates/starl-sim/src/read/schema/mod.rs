@@ -1,8 +1,7 @@
 //! Every field of a scenario: name, kind, default and meaning, in one table.
 //!
-//! The reader takes defaults, ranges and units from here and refuses what is not here;
-//! `docs/reference/scenario.md` is compared with it by a test. So a field cannot be read without
-//! being documented, nor documented without being read.
+//! The reader takes defaults, ranges and units from here and rejects other fields; `docs/reference/scenario.md` is
+//! compared with it by a test. So a field cannot be read without being documented, nor documented without being read.
 
 mod event;
 mod faults;

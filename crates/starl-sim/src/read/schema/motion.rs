@@ -2,13 +2,13 @@
 
 use super::*;
 
-/// How exactly robots move, and how they keep clear of each other.
+/// The accuracy of motion, and the avoidance of other robots.
 pub(super) const MOTION: &[Field] = &[
     field(
         "speed_noise",
         RATIO,
         Default::Value("0"),
-        "Standard deviation of the relative error of the speeds that drives are told. Limits of the model hold all the same.",
+        "Standard deviation of the relative error of commanded speeds. The limits of the model still apply.",
     ),
     field(
         "turn_noise",

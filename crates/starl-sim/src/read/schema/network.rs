@@ -13,9 +13,7 @@ const DISTRIBUTION: Field = field(
     "distribution",
     Kind::Choice(&["constant", "uniform", "normal", "exponential"]),
     Default::Value("normal"),
-    "The distribution of delays: always the mean; even over the mean plus and minus the square root of three \
-     times the jitter; normal, cut off at zero; or the mean less the jitter, plus an exponential part \
-     whose mean is the jitter.",
+    "The distribution of delays: always the mean; even over the mean plus and minus the square root of three times the jitter; normal, cut off at zero; or the mean minus the jitter, plus an exponential part whose mean is the jitter.",
 );
 const LOSS: Field = field(
     "loss",
@@ -100,7 +98,7 @@ const KNOBS: &[Field] = &[
     ),
 ];
 
-/// The same in an event, where all that is left out stays as it is.
+/// The same in an event, in which omitted fields do not change.
 pub(super) const CHANGES: &[Field] = &{
     let mut fields = join::<{ KNOBS.len() }>(&[KNOBS]);
     let mut index = 0;

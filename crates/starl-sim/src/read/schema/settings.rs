@@ -34,7 +34,7 @@ pub const SCENARIO: &[Field] = &[
         Default::Value("finished"),
         "The goal of the run. `finished`: every robot that is up has finished, and the run ends then. `duration`: the run \
          has lasted its duration. Anything else is a condition over the robots in the StarL language, such as \
-         `forall r: r.visited == 3`; the run ends when it has come true.",
+         `forall r: r.visited == 3`; the run ends when it is true.",
     ),
     field(
         "parameters",
@@ -127,8 +127,8 @@ const STORAGE: &[Field] = &[
         "kept",
         Kind::Flag,
         Default::Value("false"),
-        "Whether robots have storage that outlasts a crash. Without it, a robot that restarts knows \
-         nothing of its earlier lives.",
+        "Whether robots have storage that survives a crash. Without it, a restarted robot has lost \
+         the state of its earlier lives.",
     ),
     field(
         "write_time",

@@ -12,7 +12,7 @@ use starl_sim::scenario::{Clock, Group, SensorSuite};
 use starl_sim::shrink::{Limits, shrink};
 use starl_sim::{Finding, Profile, Run, Scenario, Trial, write};
 
-/// So many robots that stand in a row for half a minute.
+/// This number of robots that stand in a row for half a minute.
 pub fn robots(count: usize) -> Scenario {
     let pose = |index| Pose::level(Point::planar(index as f64, 0.0), 0.0);
     let mut scenario = Scenario {

@@ -27,7 +27,7 @@ pub struct Locker {
     /// Activations for which it still holds the door.
     holds: u32,
     deferred: Vec<(RobotId, u64)>,
-    /// Whether equal times are told apart by the robots' numbers, as they should be.
+    /// Whether the robots' numbers order equal times, as they should.
     breaks_ties: bool,
 }
 

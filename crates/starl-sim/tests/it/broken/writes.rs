@@ -1,5 +1,5 @@
-//! A shared variable whose last writer wins by the robots' own clocks: where these are apart, a later write
-//! with an earlier time is lost.
+//! A shared variable whose last writer wins by the robots' own clocks: if these differ, a later write with an earlier
+//! time is lost.
 
 use starl_core::event::SharedMemoryEvent;
 use starl_core::event::storing::Written;

@@ -86,7 +86,7 @@ impl Program for Drive {
     }
 }
 
-/// Robot 0 broadcasts a counter at every activation; all report what they hear.
+/// Robot 0 broadcasts a counter at every activation; all report the numbers that they receive.
 #[derive(Clone, Default, Primitives)]
 pub struct Chatter {
     pub count: u32,

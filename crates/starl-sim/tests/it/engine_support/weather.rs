@@ -9,7 +9,7 @@ use starl_sim::scenario::{Clock, Scenario};
 /// From calm to the worst; each does what the one before it does.
 pub const WEATHERS: [fn(&mut Scenario); 4] = [calm, lossy, chaotic, corrupting];
 
-/// So many robots within reach of each other for two minutes.
+/// This number of robots within range of each other for two minutes.
 pub fn fleet(robots: u32, seed: u64) -> Scenario {
     let places: Vec<_> = (0..robots).map(|robot| (f64::from(robot), 0.0)).collect();
     let mut scenario = scenario("create", &places);

@@ -40,7 +40,7 @@ pub fn read(text: &str, overrides: &[&str]) -> Result<Resolved, Problems> {
 pub const LEAST: &str =
     "program = \"race\"\n[[robots]]\nmodel = \"create\"\nstart = [{ position = [0, 0] }]\n";
 
-/// A case of a Markdown file: what is read, and what is said about it.
+/// A case of a Markdown file: the input and its messages.
 pub struct Case {
     /// The heading.
     pub title: String,

@@ -7,7 +7,7 @@ use starl_mavlink::common::{
     MavFrame, PositionTargetTypemask as Mask, SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 
-/// Reads a message; `None` if its frame is not known here, a number is none, or it asks for nothing.
+/// Reads a message; `None` if its frame is unknown, a number is NaN, or it commands nothing.
 pub(super) fn read(
     data: &SET_POSITION_TARGET_LOCAL_NED_DATA,
     now: &Pose,

@@ -1,4 +1,4 @@
-//! What the vehicle sends, each kind of message at its own rate.
+//! The messages that the vehicle sends, each kind at its own rate.
 
 use super::{COMPONENT, SYSTEM};
 use mavlink::MavHeader;
@@ -18,7 +18,7 @@ const SHORTEST: f64 = 0.005;
 /// How long a full battery lasts, seconds.
 const ENDURANCE_S: f64 = 1200.0;
 
-/// What there is to tell, in the vehicle's frame: north, east, down; angles roll, pitch (nose up) and yaw (right).
+/// The reported state in the vehicle's frame: north, east, down; angles roll, pitch (nose up) and yaw (right).
 #[derive(Debug)]
 pub(super) struct Report {
     pub autopilot: Autopilot,
@@ -148,7 +148,7 @@ impl Report {
             base_mode |= MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED;
         }
         if self.autopilot == Autopilot::ArduPilot {
-            // ArduPilot says so whoever flies.
+            // ArduPilot sets this flag for any pilot.
             base_mode |= MavModeFlag::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED;
         }
         MavMessage::HEARTBEAT(HEARTBEAT_DATA {

@@ -32,7 +32,7 @@ pub(super) fn initiate(
     Ok((Box::new(handshake), packet))
 }
 
-/// What both ends have to agree on beside the key.
+/// The values, besides the key, on which both ends must agree.
 pub(super) fn prologue(fleet: &str, initiator: Member, responder: Member) -> Vec<u8> {
     let mut prologue = b"starl fleet 1\0".to_vec();
     prologue.extend(initiator.to_le_bytes());

@@ -1,11 +1,11 @@
 //! Authenticated and encrypted packets between the members of a fleet, over any link that carries datagrams.
 //!
 //! Two members agree on a session by a Noise handshake (Perrin 2018, "The Noise Protocol Framework", pattern NNpsk0)
-//! with the fleet's key, so that a stranger cannot begin one, and sessions of different lives have different keys:
-//! what was recorded of one session means nothing in another. Within a session each packet has a number, and no number
-//! is taken twice. Neither ids nor the name of the fleet can be changed on the way, since both go into the handshake.
+//! with the fleet's key, so that a stranger cannot begin one. Sessions of different lives have different keys: a
+//! packet recorded in one session is invalid in another. Within a session each packet has a number, and each number is
+//! accepted once. Neither ids nor the name of the fleet can be changed on the way, since both go into the handshake.
 //!
-//! A [`Channel`] touches no socket: it makes packets of contents and contents of packets.
+//! A [`Channel`] does not use a socket: it only seals and opens packets.
 
 mod handshake;
 mod refusal;
@@ -56,14 +56,14 @@ const RENEWAL: Duration = Duration::from_millis(600_000);
 /// A session in which nothing has come from the other member for so long is replaced.
 const SILENCE: Duration = Duration::from_millis(2_000);
 
-/// What a packet turned out to be.
+/// The result of opening a packet.
 #[derive(Debug, PartialEq)]
 pub enum Opened {
     /// Content from a member.
     Content {
         /// The sender.
         from: Member,
-        /// What it says.
+        /// The decrypted content.
         content: Vec<u8>,
     },
     /// A part of a handshake; the answer, if there is one, goes back to where the packet came from.
@@ -88,7 +88,7 @@ pub struct Channel {
     refusals: Refusals,
 }
 
-/// What is kept of another member.
+/// The state kept for another member.
 #[derive(Default)]
 struct Peer {
     /// The session to send in.
@@ -137,7 +137,7 @@ impl Channel {
         }
     }
 
-    /// Puts other keys in the place of the present ones. Sessions that exist go on until they are renewed.
+    /// Replaces the keys. Existing sessions continue until they are renewed.
     pub fn set_keys(&mut self, keys: Vec<Key>) {
         self.keys = keys;
     }
@@ -192,7 +192,7 @@ impl Channel {
         })
     }
 
-    /// The initiations that are due, each for a member. To be called a few times a second.
+    /// The initiations that are due, each for a member. Call it a few times a second.
     pub fn due(&mut self, now: Time) -> Vec<(Member, Vec<u8>)> {
         let Some(key) = self.keys.first().copied() else {
             return Vec::new();

@@ -3,7 +3,7 @@
 /// Why a packet was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Refusal {
-    /// It is no packet of this protocol.
+    /// It is not a packet of this protocol.
     Malformed,
     /// It belongs to a session that this process does not know, perhaps one of an earlier life.
     UnknownSession,

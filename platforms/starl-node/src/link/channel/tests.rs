@@ -1,4 +1,4 @@
-//! What a channel opens, and what it refuses.
+//! Packets that a channel opens, and packets that it rejects.
 
 use super::*;
 
@@ -179,7 +179,7 @@ fn a_handshake_ends_where_packets_take_long() {
     let (mut a, mut b) = (member(0, KEY), member(1, KEY));
     a.want(1);
     let delay = Duration::from_millis(700);
-    // What is on its way: when it arrives, whether at `b`, and the packet.
+    // The packets in flight: the time of arrival, whether at `b`, and the packet.
     let mut flying: Vec<(Time, bool, Vec<u8>)> = Vec::new();
     for tick in 0..100 {
         let now = Time::ZERO + Duration::from_millis(100 * tick);

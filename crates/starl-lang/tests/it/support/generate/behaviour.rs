@@ -1,4 +1,4 @@
-//! What a program does and claims: `init`, actions, handlers, roles and properties.
+//! The behaviour of generated programs: `init`, actions, handlers, roles and properties.
 
 use super::Generator;
 use super::model::{Enum, Place, Type};
@@ -72,7 +72,7 @@ impl Generator<'_> {
         }
     }
 
-    /// A handler of an input with a name that no other has, but for that of the way-points.
+    /// A handler of an input with an unused name, or of the waypoints.
     fn input(&mut self) {
         self.place = Place::Effect;
         let count = self.choices.below(4);
@@ -165,7 +165,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What is said, of one robot or of all.
+    /// A condition on one robot or on all.
     fn stated(&mut self, is_about_robot: bool) -> String {
         if is_about_robot {
             self.claim()

@@ -1,7 +1,7 @@
-//! Where a generator's choices come from: bytes, one for each choice.
+//! The choices of a generator, from bytes: one for each choice.
 //!
-//! Invariant: equal bytes give equal choices, and where the bytes are at their end every choice is the
-//! first, which is the simplest. So whoever makes the bytes shorter or smaller makes the program simpler.
+//! Invariant: equal bytes give equal choices, and after the last byte every choice is the first, which is the simplest.
+//! So shorter or smaller bytes make a simpler program.
 
 /// Choices that bytes decide.
 pub struct Choices<'a> {

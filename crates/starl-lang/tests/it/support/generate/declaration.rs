@@ -1,4 +1,4 @@
-//! What a program declares: types, parameters, constants, functions, primitives and variables.
+//! The declarations of generated programs: types, parameters, constants, functions, primitives and variables.
 
 use super::Generator;
 use super::expression::Context;

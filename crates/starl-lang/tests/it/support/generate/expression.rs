@@ -19,7 +19,7 @@ pub mod power {
     pub const ATOM: u8 = 10;
 }
 
-/// What the checker knows of the type where an expression stands.
+/// The type information available where an expression is generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
     /// Nothing, or what does not apply: the expression must say its type itself.

@@ -4,12 +4,12 @@
 use super::Choices;
 use starl_lang::syntax::{SyntaxKind, parse};
 
-/// Operators at whose end a line may go on in the next one.
+/// Operators at whose end a line may continue in the next one.
 const OPERATORS: &[&str] = &[
     "+", "*", "/", "%", "==", "!=", "<", "<=", ">", ">=", "and", "or", "??", ",",
 ];
 
-/// The program, which is laid out as the generator does it, in a layout that these choices make.
+/// The program, with white space and line breaks that these choices determine.
 pub fn other(text: &str, choices: &mut Choices<'_>) -> String {
     let mut layout = Layout {
         choices,
@@ -98,7 +98,7 @@ impl Layout<'_, '_> {
         }
     }
 
-    /// Goes on in a new line, at least so far to the right.
+    /// Continues in a new line, indented at least this far.
     fn line_break(&mut self, least: usize) {
         let column = least + self.choices.below(12);
         self.text.push('\n');

@@ -1,8 +1,7 @@
-//! Random programs that are well typed, as text: the checker must take every one of them.
+//! Random well-typed programs, as text: the checker must accept every one of them.
 //!
-//! What is generated depends on bytes alone, so that a property test or a fuzzer may choose them. All
-//! types, declarations, statements, operators, methods and built-in functions occur that a program on
-//! a robot can use.
+//! The program depends on bytes alone, so that a property test or a fuzzer may choose them. It may contain all types,
+//! declarations, statements, operators, methods and built-in functions that a program on a robot can use.
 
 mod behaviour;
 mod choices;
@@ -21,12 +20,12 @@ mod types;
 pub use choices::Choices;
 use model::{Local, Model, Place, Type};
 
-/// A program that these bytes stand for.
+/// The program generated from these bytes.
 pub fn program(bytes: &[u8]) -> String {
     generate(bytes, false)
 }
 
-/// The same with parentheses around all that has an operator.
+/// The same with parentheses around every operation.
 pub fn program_with_parentheses(bytes: &[u8]) -> String {
     generate(bytes, true)
 }
@@ -55,7 +54,7 @@ struct Generator<'a> {
     /// The locals that can be seen.
     locals: Vec<Local>,
     place: Place,
-    /// What the function gives whose body is made.
+    /// The result type of the function whose body is being generated.
     result: Option<Type>,
     all_parentheses: bool,
     /// Whether there may be `atomic`.

@@ -1,4 +1,4 @@
-//! What a generated program declares, as far as the rest of it needs to know.
+//! The declarations of a generated program, for generating its other parts.
 
 /// A type.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ impl Type {
         Type::Map(Box::new(key), Box::new(value))
     }
 
-    /// `of?`; of what is optional already the same.
+    /// `of?`; an optional type stays the same.
     pub fn optional(of: Type) -> Type {
         match of {
             Type::Optional(_) => of,
@@ -60,7 +60,7 @@ pub struct Named {
 
 /// An enum.
 pub struct Enum {
-    /// None of `enum {a, b}` in the place of a type.
+    /// None of `enum {a, b}` in place of a type.
     pub name: Option<String>,
     pub variants: Vec<String>,
 }
@@ -139,7 +139,7 @@ impl Place {
     }
 }
 
-/// What is declared.
+/// The declarations.
 pub struct Model {
     pub enums: Vec<Enum>,
     pub records: Vec<Record>,
@@ -154,7 +154,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// What every program has without declaring it.
+    /// The built-in declarations.
     pub fn new() -> Model {
         let field = |name: &str, ty| Named {
             name: name.into(),

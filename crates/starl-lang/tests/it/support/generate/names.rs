@@ -1,10 +1,10 @@
-//! What can be read where: names, and what is reached from them, by type.
+//! The readable names in a scope, and the values reachable from them, by type.
 
 use super::Generator;
 use super::model::{Place, Type};
 
 impl Generator<'_> {
-    /// What can be read here that has this type.
+    /// The readable expressions of this type.
     pub(super) fn readable(&self, ty: &Type) -> Vec<String> {
         let mut found = Vec::new();
         self.visit(&mut |name, of| {
@@ -75,7 +75,7 @@ impl Generator<'_> {
             .is_some_and(|local| local.ty == Type::Robot)
     }
 
-    /// What a property may say of a robot.
+    /// The attributes of a robot in a property.
     fn of_robot(&self, robot: &str, found: &mut dyn FnMut(&str, &Type)) {
         for variable in &self.model.variables {
             found(&format!("{robot}.{}", variable.name), &variable.ty);

@@ -126,12 +126,12 @@ impl Generator<'_> {
         match made {
             Some(line) => line,
             None if is_effect => self.effect(),
-            // What a function does without variables.
+            // The only statement of a function without variables.
             None => self.return_statement(),
         }
     }
 
-    /// What can be written here: whether it can be read and changed in parts too.
+    /// The writable variables, and whether each can be read and changed in parts.
     fn writable(&self) -> Vec<(String, Type, bool)> {
         let mut found = Vec::new();
         for local in self.locals.iter().filter(|local| local.is_writable) {

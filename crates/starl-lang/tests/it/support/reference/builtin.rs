@@ -7,7 +7,7 @@ use starl_lang::check::{Builtin, Method};
 use starl_lang::machine::Fault;
 use std::cmp::Ordering;
 
-/// What a pure function gives. Arguments that were left out are none.
+/// The result of a pure function. Omitted arguments are none.
 pub fn pure(builtin: Builtin, arguments: Vec<Option<Value>>) -> Outcome<Value> {
     use Value::{Float, Int};
     let mut given = arguments.into_iter();
@@ -73,7 +73,7 @@ pub fn pure(builtin: Builtin, arguments: Vec<Option<Value>>) -> Outcome<Value> {
     })
 }
 
-/// Where one is no number the other; where both are zero it is not said which one.
+/// If one is NaN, the other; if both are zero, either.
 fn chosen(left: Value, right: Value, wanted: Ordering) -> Outcome<Value> {
     if let (Value::Float(l), Value::Float(r)) = (&left, &right) {
         if l.is_nan() || r.is_nan() {
@@ -126,7 +126,7 @@ pub fn position(list: &[Value], element: &Value) -> Outcome<Option<usize>> {
     Ok(None)
 }
 
-/// An index of a list with so many elements.
+/// An index of a list with this number of elements.
 pub fn index(at: i64, length: usize) -> Outcome<usize> {
     match usize::try_from(at) {
         Ok(index) if index < length => Ok(index),
@@ -141,7 +141,7 @@ fn keys(map: Vec<(Value, Value)>) -> Vec<Value> {
     map.into_iter().map(|(key, _)| key).collect()
 }
 
-/// What a method gives that changes nothing.
+/// The result of a method that changes nothing.
 pub fn method(method: Method, receiver: Value, arguments: Vec<Value>) -> Outcome<Value> {
     use Value::{Bool, Int, List, Map, Set, Text};
     let mut arguments = arguments.into_iter();

@@ -28,7 +28,7 @@ impl<'a> Reference<'a> {
         expressions.iter().map(|one| self.evaluate(one)).collect()
     }
 
-    /// What is there of an optional.
+    /// The value of an optional, if there is one.
     fn there(&mut self, expression: &'a Expression) -> Outcome<Option<Value>> {
         match self.evaluate(expression)? {
             Value::Optional(inner) => Ok(inner.map(|value| *value)),
@@ -313,7 +313,7 @@ impl<'a> Reference<'a> {
         self.ask(&name, arguments, ty)
     }
 
-    /// Arguments for the host: an optional one that is left out is none.
+    /// Arguments for the host: an omitted optional one is none.
     pub fn arguments(
         &mut self,
         signature: &Signature,
@@ -475,7 +475,7 @@ impl<'a> Reference<'a> {
         })
     }
 
-    /// What a loop runs over: elements, or keys with their values.
+    /// The items of a loop: elements, or keys with their values.
     pub fn items(&mut self, collection: &'a Expression) -> Outcome<Items> {
         if let ExpressionKind::Range { start, end } = &collection.kind {
             let (start, end) = (self.int(start)?, self.int(end)?);
@@ -501,5 +501,5 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// What a loop runs over.
+/// The items of a loop.
 pub type Items = Box<dyn Iterator<Item = (Value, Option<Value>)>>;

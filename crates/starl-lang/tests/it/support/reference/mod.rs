@@ -1,7 +1,7 @@
-//! What a program means, computed in the plainest way: the typed program is walked and every value is a
-//! tree. It shares nothing with the compiler and the machine, which are held to it.
+//! A reference interpreter: it walks the typed program, and every value is a tree. It shares no code with the compiler
+//! and the machine, which are compared with it.
 //!
-//! It knows no limits of fuel and memory but rough ones of its own, [`Stop::TooLong`].
+//! It has no exact limits of fuel and memory, only rough ones of its own: [`Stop::TooLong`].
 
 mod builtin;
 mod expression;
@@ -105,7 +105,7 @@ impl<'a> Reference<'a> {
         Ok(())
     }
 
-    /// Binds primitives, gives variables their values, and does what is done at the start.
+    /// Binds primitives, initializes variables, and runs `init`.
     pub fn start(&mut self) -> Outcome<()> {
         self.begin(0);
         let program = self.program;
@@ -184,7 +184,7 @@ impl<'a> Reference<'a> {
         Ok(())
     }
 
-    /// Asks of every property whether it holds of some robots, all of whom have the same state.
+    /// Evaluates every property for some robots, all of which have the same state.
     pub fn properties(&mut self) -> Vec<Outcome<bool>> {
         self.world.moment += 1;
         let mut results = Vec::new();
@@ -209,7 +209,7 @@ impl<'a> Reference<'a> {
         results
     }
 
-    /// What a property says of a robot.
+    /// The attribute of a robot in a property.
     fn of_robot(&mut self, robot: Value, member: RobotMember, ty: &Type) -> Outcome<Value> {
         let name = match member {
             RobotMember::Variable(id) => return Ok(self.variables[id.index()].clone()),

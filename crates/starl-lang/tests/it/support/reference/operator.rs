@@ -7,7 +7,7 @@ use starl_lang::ir::Operator;
 use starl_lang::machine::Fault;
 use std::cmp::Ordering;
 
-/// What an operator of two values gives.
+/// The result of a binary operator.
 pub fn apply(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
     use Operator::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
     let unknown = Stop::Unknown;

@@ -1,4 +1,4 @@
-//! What statements do.
+//! The execution of statements.
 
 use super::builtin::{index, position};
 use super::operator::apply;
@@ -8,7 +8,7 @@ use starl_lang::check::Method;
 use starl_lang::ir::*;
 use starl_lang::machine::{self, Fault};
 
-/// What an end of a block is: none if it goes on after it, else what is returned.
+/// The end of a block: none if execution continues after it, else the returned value.
 type End = Option<Option<Value>>;
 
 /// A step with its index or key, which was computed.
@@ -127,7 +127,7 @@ impl<'a> Reference<'a> {
         Ok(None)
     }
 
-    /// Does what is done on entering the role that the robot has.
+    /// Runs the entry of the robot's role.
     pub fn enter_role(&mut self) -> Outcome<()> {
         let roles = self.program.roles.as_ref().expect("roles");
         let Value::Variant(role) = self.variables[roles.variable.index()] else {
@@ -219,7 +219,7 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// What a method does that changes what it is called on.
+/// Calls a method that changes its receiver.
 fn changed(value: &mut Value, method: Method, arguments: Vec<Value>) -> Outcome<()> {
     let mut arguments = arguments.into_iter();
     match (method.name(), value, arguments.next(), arguments.next()) {
@@ -283,7 +283,7 @@ fn part<'v>(whole: &'v mut Value, way: &[Way], may_be_new: bool) -> Outcome<&'v 
     part(inner, rest, may_be_new)
 }
 
-/// Does something with a part of a value. A coordinate is no value of its own: it is taken out and put
+/// Does something with a part of a value. A coordinate is not a separate value: it is read and written
 /// back.
 fn with_part<T>(
     whole: &mut Value,

@@ -26,7 +26,7 @@ pub enum Value {
     Map(Vec<(Value, Value)>),
 }
 
-/// Whether two values are equal; none where a number is none and it is not said what that equals.
+/// Whether two values are equal; none if a number is NaN and the result is unspecified.
 pub fn equal(left: &Value, right: &Value, is_part: bool) -> Option<bool> {
     use Value::*;
     let lists = |left: &[Value], right: &[Value]| -> Option<bool> {
@@ -110,7 +110,7 @@ impl Value {
     }
 }
 
-/// The order of keys, and of what is sorted: by the numbers first, then by the texts.
+/// The order of keys and sorted values: by the numbers first, then by the texts.
 pub fn order(left: &Value, right: &Value) -> Ordering {
     let (mut scalars, mut texts) = (Vec::new(), Vec::new());
     let (mut others, mut other_texts) = (Vec::new(), Vec::new());
@@ -252,7 +252,7 @@ pub fn read(program: &Program, ty: &Type, given: &machine::Value) -> Value {
     }
 }
 
-/// The elements once each, in their order; of equal ones the first stays.
+/// The elements once each, in their order; of equal ones the first is kept.
 pub fn set(elements: Vec<Value>) -> Vec<Value> {
     let mut set: Vec<Value> = Vec::new();
     for element in elements {
@@ -281,7 +281,7 @@ pub fn find(map: &[(Value, Value)], key: &Value) -> Option<usize> {
     map.binary_search_by(|(other, _)| order(other, key)).ok()
 }
 
-/// The text of a value: a text is itself, and what is there of an optional counts.
+/// The text of a value: a text is itself, and an optional is the text of its value.
 pub fn text(program: &Program, ty: &Type, value: &Value) -> String {
     match (value, ty) {
         (Value::Text(text), _) => text.clone(),

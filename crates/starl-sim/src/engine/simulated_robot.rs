@@ -7,9 +7,9 @@ use starl_core::{Digest, Order, RobotId, Time};
 use starl_host::{Datagram, Node, Store};
 use starl_motion::Neighbour;
 
-/// One robot's software and what is around it.
+/// One robot's node with its network and motion state.
 #[derive(Clone)]
-pub struct Mind {
+pub struct SimulatedRobot {
     pub node: Node,
     pub senses: Senses,
     pub account: Account,
@@ -22,7 +22,7 @@ pub struct Mind {
     pub distance: f64,
 }
 
-impl Mind {
+impl SimulatedRobot {
     /// The robot's number.
     pub fn id(&self) -> RobotId {
         self.node.id()
@@ -86,9 +86,9 @@ pub struct Senses {
 #[derive(Clone, Debug, Default)]
 pub struct Account {
     pub digest: Digest,
-    /// When the radio has sent all that waits.
+    /// The time at which the radio has sent its whole queue.
     pub radio_free: Time,
-    /// Jobs of planning that are done, to be handed over at the next step.
+    /// Finished planning jobs, to be delivered in the next step.
     pub plans: Vec<(u32, Option<Path>)>,
     /// The robot's storage; none if it has none.
     pub store: Option<Box<Store>>,
@@ -107,7 +107,7 @@ pub struct Account {
 pub struct Knowledge {
     /// Indices in the world.
     pub met: Vec<u32>,
-    /// All that it knows.
+    /// All obstacles that it knows.
     pub obstacles: Obstacles,
 }
 

@@ -8,14 +8,14 @@ use super::Span;
 /// One replacement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// What is replaced; nothing, where text is inserted.
+    /// The text to replace; empty to insert.
     pub span: Span,
-    /// What is put there.
+    /// The new text.
     pub text: String,
 }
 
 impl Edit {
-    /// Puts `text` in the place of what `span` marks.
+    /// Replaces the text at `span` by `text`.
     #[must_use]
     pub fn new(span: Span, text: impl Into<String>) -> Self {
         Self {
@@ -27,14 +27,14 @@ impl Edit {
 
 /// A change that would put a problem right.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mend {
-    /// What to do, as one tells a person.
+pub struct Fix {
+    /// The instruction shown to users.
     pub message: String,
-    /// The same for a program: replacements by rising place, none overlapping another.
+    /// The same as edits, sorted by position and without overlaps.
     pub edits: Vec<Edit>,
 }
 
-impl Mend {
+impl Fix {
     /// The source after the change. Edits that do not fit `source` are left out.
     #[must_use]
     pub fn apply(&self, source: &str) -> String {

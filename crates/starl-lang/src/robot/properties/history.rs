@@ -1,49 +1,49 @@
-//! What a judge remembers of a property.
+//! The history of a property, kept by its judge.
 //!
-//! Only what is out of the ordinary: rows of robots for which something came true that was to come once,
-//! or that wait for what is to follow, or for which the property was violated.
+//! Only exceptional tuples of robots are stored: those for which an eventual condition has become true, those that wait
+//! for a consequence, and those that violate the property.
 
 use super::Excuse;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use starl_core::{RobotId, Time};
 
-/// Robots that a property is judged of together.
+/// Robots for which a property is judged together.
 pub type Row = Vec<RobotId>;
 
-/// In the place of a version: nothing is known.
+/// In place of a version: unknown.
 pub const UNKNOWN: u64 = 0;
-/// In the place of a version: there is nothing more to judge.
+/// In place of a version: the verdict is final.
 pub const CLOSED: u64 = u64::MAX;
 
-/// What is remembered of one property.
+/// The history of one property.
 #[derive(Clone, Debug, Default)]
-pub struct Docket {
+pub struct History {
     /// The variables that it reads, by their places in the program.
     pub reads: Vec<usize>,
     /// Whether it was ever judged.
     pub judged: bool,
     /// Rows for which it was violated.
     pub violated: BTreeSet<Row>,
-    /// Rows for which what was to come once has come.
+    /// Rows for which the eventual condition has become true.
     pub settled: BTreeSet<Row>,
-    /// Rows that wait for what is to follow, and since when.
+    /// Rows that wait for the consequence, with the time since when.
     pub waiting: BTreeMap<Row, Time>,
-    /// Whether some row has not seen what is to come.
+    /// Whether the eventual condition is still false for some row.
     pub lacks: bool,
-    /// Rows for which what is assumed was not so, and when last.
+    /// Rows for which the assumption was false, with the last time.
     pub unassumed: BTreeMap<Row, Time>,
     /// Rows for which it is false at present, which is excused.
     pub forgiven: BTreeSet<Row>,
-    /// How often a row came to be forgiven, by reason.
+    /// How often a row was excused, by reason.
     pub excused: BTreeMap<Excuse, u64>,
-    /// For a property of single robots the version of each one's state, in the order of the roster,
-    /// at which nothing was out of the ordinary and nothing else was looked at: while it is the same
-    /// the robot need not be judged again.
+    /// For a property of single robots: the version of each robot's state, in the order of the roster, at which there
+    /// was nothing exceptional and only this state was read. While the version is unchanged the robot need not be
+    /// judged again.
     pub marks: Vec<u64>,
 }
 
-impl Docket {
+impl History {
     /// The roster, which is in ascending order, has changed: marks follow their robots.
     pub fn rearrange(&mut self, before: &[RobotId], now: &[RobotId]) {
         let mark_of = |robot: &RobotId| {

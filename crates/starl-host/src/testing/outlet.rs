@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use starl_core::{Duration, Event, MotionRequest, Random, RobotId, Time};
 use starl_motion::Neighbour;
 
-pub(super) struct Desk<'a> {
+pub(super) struct FleetOutlet<'a> {
     pub robot: RobotId,
     pub fleet: &'a [RobotId],
     pub wire: &'a Wire,
@@ -24,7 +24,7 @@ pub(super) struct Desk<'a> {
     pub workspace: &'a mut Workspace,
 }
 
-impl Outlet for Desk<'_> {
+impl Outlet for FleetOutlet<'_> {
     fn workspace(&mut self) -> &mut Workspace {
         self.workspace
     }

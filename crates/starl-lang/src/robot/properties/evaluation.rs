@@ -1,40 +1,40 @@
-//! One property, judged at one moment of all rows of robots that it is about.
+//! Evaluates one property at one moment for all tuples of robots.
 
-use super::docket::{CLOSED, Docket, Row, UNKNOWN};
-use super::observables::Court;
+use super::history::{CLOSED, History, Row, UNKNOWN};
+use super::observables::PropertyHost;
 use super::violation::{Reason, Violation};
 use super::{Excuse, RECOVERY};
 use crate::machine::{Claim, Limits, Machine, Property, Workspace};
 use alloc::vec::Vec;
 use starl_core::{Duration, RobotId, Time};
 
-/// One property before the court.
-pub struct Hearing<'a> {
-    /// What can be seen.
-    pub court: Court<'a>,
-    /// Room for work.
+/// The evaluation of one property.
+pub struct Evaluation<'a> {
+    /// The state that the property reads.
+    pub host: PropertyHost<'a>,
+    /// Scratch memory.
     pub workspace: &'a mut Workspace,
-    /// The versions of the states of those who have started, in their order.
+    /// The versions of the states of the started robots, in their order.
     pub versions: &'a [u64],
     /// The property.
     pub property: &'a Property,
-    /// Its place among the program's.
+    /// Its index among the program's properties.
     pub index: usize,
-    /// What is remembered of it.
-    pub docket: &'a mut Docket,
-    /// What has been found so far.
+    /// Its history.
+    pub history: &'a mut History,
+    /// The violations found so far.
     pub violations: &'a mut Vec<Violation>,
 }
 
-impl Hearing<'_> {
+impl Evaluation<'_> {
     /// Judges all rows.
     pub fn run(&mut self) {
         let size = usize::from(self.property.robots);
-        if size > 0 && self.court.roster.is_empty() {
+        if size > 0 && self.host.roster.is_empty() {
             return;
         }
-        self.docket.judged = true;
-        self.docket.lacks = false;
+        self.history.judged = true;
+        self.history.lacks = false;
         if size == 1 {
             return self.run_singly();
         }
@@ -45,13 +45,13 @@ impl Hearing<'_> {
             row.extend(
                 places
                     .iter()
-                    .filter_map(|&place| self.court.roster.get(place)),
+                    .filter_map(|&place| self.host.roster.get(place)),
             );
-            if self.docket.violated.is_empty() || !self.docket.violated.contains(&row) {
+            if self.history.violated.is_empty() || !self.history.violated.contains(&row) {
                 self.judge(&row);
             }
             // The next row, as an odometer counts.
-            let last = self.court.roster.len().saturating_sub(1);
+            let last = self.host.roster.len().saturating_sub(1);
             let Some(turning) = places.iter().rposition(|&place| place < last) else {
                 return;
             };
@@ -62,8 +62,8 @@ impl Hearing<'_> {
 
     /// Judges the property of each robot whose state has changed, or that waits for something.
     fn run_singly(&mut self) {
-        let (roster, versions) = (self.court.roster, self.versions);
-        let mut marks = core::mem::take(&mut self.docket.marks);
+        let (roster, versions) = (self.host.roster, self.versions);
+        let mut marks = core::mem::take(&mut self.history.marks);
         marks.resize(roster.len(), UNKNOWN);
         for ((robot, &version), mark) in roster.iter().zip(versions).zip(&mut marks) {
             if *mark == CLOSED {
@@ -73,13 +73,13 @@ impl Hearing<'_> {
                 continue;
             }
             let row = core::slice::from_ref(robot);
-            if !self.docket.violated.contains(row) {
+            if !self.history.violated.contains(row) {
                 self.judge(row);
             }
             *mark = if self.is_closed(row) {
                 CLOSED
-            } else if self.court.looked_elsewhere.get()
-                || self.docket.waiting.contains_key(row)
+            } else if self.host.looked_elsewhere.get()
+                || self.history.waiting.contains_key(row)
                 || self.property.is_timed()
             {
                 UNKNOWN
@@ -87,65 +87,65 @@ impl Hearing<'_> {
                 version
             };
         }
-        self.docket.marks = marks;
+        self.history.marks = marks;
     }
 
-    /// What is said anew of a robot of which nothing has changed; false if it is to be judged again.
+    /// Judges a robot whose state is unchanged; false if it must be evaluated again.
     fn stays_ordinary(&mut self) -> bool {
         if let Claim::Eventually { within, .. } = self.property.claim {
-            self.docket.lacks = true;
+            self.history.lacks = true;
             return within.is_none_or(|within| self.elapsed(Time::ZERO, &[]) < Duration(within));
         }
         true
     }
 
-    /// Whether nothing can change any more for the row.
+    /// Whether the verdict on the row is final.
     fn is_closed(&self, row: &[RobotId]) -> bool {
-        self.docket.violated.contains(row) || self.docket.settled.contains(row)
+        self.history.violated.contains(row) || self.history.settled.contains(row)
     }
 
-    /// Judges the property of one row of robots; nothing, if it cannot be judged any more.
+    /// Judges the property for one row of robots, unless the verdict is final.
     fn judge(&mut self, row: &[RobotId]) {
-        self.court.first = row.first().copied();
-        self.court.looked_elsewhere.set(false);
+        self.host.first = row.first().copied();
+        self.host.looked_elsewhere.set(false);
         let judged = match self.excuse(row) {
             Err(reason) => Err(reason),
             Ok(Some(excuse)) => {
-                self.docket.waiting.remove(row);
-                self.docket.lacks |= matches!(self.property.claim, Claim::Eventually { .. })
-                    && !self.docket.settled.contains(row);
+                self.history.waiting.remove(row);
+                self.history.lacks |= matches!(self.property.claim, Claim::Eventually { .. })
+                    && !self.history.settled.contains(row);
                 if let Claim::Always(holds) = self.property.claim {
                     let is_true = self.holds(holds, row).unwrap_or(false);
                     self.forgive(row, is_true, excuse);
                 }
-                self.court.looked_elsewhere.set(true);
+                self.host.looked_elsewhere.set(true);
                 return;
             }
             Ok(None) => self.claim(row),
         };
         if let Err(reason) = judged {
-            self.docket.waiting.remove(row);
-            self.docket.violated.insert(row.into());
+            self.history.waiting.remove(row);
+            self.history.violated.insert(row.into());
             let violation = Violation::new(
-                &self.court,
+                &self.host,
                 (self.index, self.property),
                 row,
                 reason,
-                &self.docket.reads,
+                &self.history.reads,
             );
             self.violations.push(violation);
         }
     }
 
-    /// Why nothing is claimed of the row at this moment, if nothing is.
+    /// The excuse of the row at this moment, if it has one.
     fn excuse(&mut self, row: &[RobotId]) -> Result<Option<Excuse>, Reason> {
-        if !row.iter().all(|robot| self.court.counts(*robot)) {
+        if !row.iter().all(|robot| self.host.counts(*robot)) {
             return Ok(Some(Excuse::Down));
         }
-        let now = self.court.now;
-        let uncorrupted = self.court.fleet.uncorrupted();
+        let now = self.host.now;
+        let uncorrupted = self.host.fleet.uncorrupted();
         let recovery = self.property.recovery.map_or(RECOVERY, Duration);
-        if !self.docket.reads.is_empty()
+        if !self.history.reads.is_empty()
             && uncorrupted < recovery
             && uncorrupted < now.since(Time::ZERO)
         {
@@ -158,47 +158,48 @@ impl Hearing<'_> {
         if is_assumed {
             return Ok(None);
         }
-        self.docket.unassumed.insert(row.into(), now);
+        self.history.unassumed.insert(row.into(), now);
         Ok(Some(Excuse::Assumption))
     }
 
     /// Counts a row for which the property is false and excused, once each time that it becomes so.
     fn forgive(&mut self, row: &[RobotId], is_true: bool, excuse: Excuse) {
         if is_true {
-            self.docket.forgiven.remove(row);
-        } else if self.docket.forgiven.insert(row.into()) {
-            *self.docket.excused.entry(excuse).or_default() += 1;
+            self.history.forgiven.remove(row);
+        } else if self.history.forgiven.insert(row.into()) {
+            *self.history.excused.entry(excuse).or_default() += 1;
         }
     }
 
     /// Counts a deadline that is missed only because of a fault.
     fn forgive_lateness(&mut self, row: &[RobotId], since: Time, within: Duration, is_true: bool) {
-        if self.court.now.since(since) > within {
+        if self.host.now.since(since) > within {
             self.forgive(row, is_true, Excuse::Recovery);
         }
     }
 
-    /// How long it is since a moment, since the last fault, and since what is assumed was not so.
+    /// The time since the latest of three moments: the given one, the last fault, and the last time the assumption was
+    /// false.
     fn elapsed(&self, since: Time, row: &[RobotId]) -> Duration {
-        let now = self.court.now;
-        let unassumed = self.docket.unassumed.get(row);
+        let now = self.host.now;
+        let unassumed = self.history.unassumed.get(row);
         let since = unassumed.map_or(since, |unassumed| since.max(*unassumed));
-        now.since(since).min(self.court.fleet.undisturbed())
+        now.since(since).min(self.host.fleet.undisturbed())
     }
 
     fn claim(&mut self, row: &[RobotId]) -> Result<(), Reason> {
         match self.property.claim {
             Claim::Always(holds) => self.always(holds, row),
             Claim::EventuallyAlways { holds, within } => {
-                // To be judged again although nothing may have changed.
-                self.court.looked_elsewhere.set(true);
+                // Judge it again even if the state has not changed.
+                self.host.looked_elsewhere.set(true);
                 let Some(within) = within.map(Duration) else {
                     return Ok(());
                 };
                 if self.elapsed(Time::ZERO, row) > within {
                     return self.always(holds, row);
                 }
-                if self.court.now.since(Time::ZERO) > within {
+                if self.host.now.since(Time::ZERO) > within {
                     let is_true = self.holds(holds, row).unwrap_or(false);
                     self.forgive(row, is_true, Excuse::Recovery);
                 }
@@ -226,10 +227,10 @@ impl Hearing<'_> {
         within: Option<u64>,
         row: &[RobotId],
     ) -> Result<(), Reason> {
-        if self.docket.settled.contains(row) {
+        if self.history.settled.contains(row) {
             return Ok(());
         }
-        // Also where it is too late: to see for whom it does not hold.
+        // Evaluated even after the deadline, to find the robots for which it is false.
         let is_true = self.holds(holds, row)?;
         if let Some(within) = within.map(Duration) {
             if is_late(self.elapsed(Time::ZERO, row), within, is_true) {
@@ -238,9 +239,9 @@ impl Hearing<'_> {
             self.forgive_lateness(row, Time::ZERO, within, is_true);
         }
         if is_true {
-            self.docket.settled.insert(row.into());
+            self.history.settled.insert(row.into());
         } else {
-            self.docket.lacks = true;
+            self.history.lacks = true;
         }
         Ok(())
     }
@@ -251,8 +252,8 @@ impl Hearing<'_> {
         within: Option<u64>,
         row: &[RobotId],
     ) -> Result<(), Reason> {
-        let now = self.court.now;
-        let since = match self.docket.waiting.get(row).copied() {
+        let now = self.host.now;
+        let since = match self.history.waiting.get(row).copied() {
             Some(since) => since,
             None if self.holds(cause, row)? => now,
             None => return Ok(()),
@@ -265,31 +266,31 @@ impl Hearing<'_> {
             self.forgive_lateness(row, since, within, is_true);
         }
         if is_true {
-            self.docket.waiting.remove(row);
+            self.history.waiting.remove(row);
         } else if since == now {
-            self.docket.waiting.insert(row.into(), since);
+            self.history.waiting.insert(row.into(), since);
         }
         Ok(())
     }
 
     fn holds(&mut self, function: u32, row: &[RobotId]) -> Result<bool, Reason> {
-        let code = self.court.code;
+        let code = self.host.code;
         let program = code.program();
-        let limits = limits(self.court.roster.len());
-        self.court.last.set(None);
+        let limits = limits(self.host.roster.len());
+        self.host.last.set(None);
         Machine::holds(
             program,
             function,
             row,
             self.workspace,
-            &mut self.court,
+            &mut self.host,
             limits,
         )
         .map_err(|error| Reason::Undecided(code.describe(&error)))
     }
 }
 
-/// Whether what is or is not true now was to be true within a time of which so much has elapsed, and was not.
+/// Whether a condition is late: its deadline has passed without it being true before.
 fn is_late(elapsed: Duration, within: Duration, is_true: bool) -> bool {
     elapsed > within || elapsed == within && !is_true
 }

@@ -5,7 +5,7 @@ use starl_lang::machine::{Host, HostCall, List, Object, State};
 use std::borrow::Cow;
 
 /// The machine's host.
-pub struct Court<'a> {
+pub struct EnvironmentHost<'a> {
     /// The quantities of each robot.
     pub states: &'a [State],
     /// All robots, as a list.
@@ -17,7 +17,7 @@ pub fn all(robots: usize) -> Object {
     List::of_scalars((0..robots as u64).collect()).into()
 }
 
-impl Host for Court<'_> {
+impl Host for EnvironmentHost<'_> {
     fn call(&mut self, _: u32, call: &mut HostCall<'_>) -> Result<u64, Cow<'static, str>> {
         // Nothing else is asked.
         call.set_object(0, self.all.clone());
