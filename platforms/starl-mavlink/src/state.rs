@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_jump_of_the_position_is_no_way() {
+    fn a_jump_of_the_position_is_not_taken_as_motion() {
         assert_eq!(way([0.0, 0.0, 0.0], [3.0, 0.0, 0.0]), None);
     }
 }

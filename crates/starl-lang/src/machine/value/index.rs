@@ -34,7 +34,7 @@ struct Table {
     shift: u32,
 }
 
-/// What the index says of a key.
+/// The answer of the index about a key.
 pub enum Found {
     /// It is at this index.
     At(usize),
