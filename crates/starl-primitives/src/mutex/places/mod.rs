@@ -215,9 +215,10 @@ impl Mutex {
             }
             Some(_) => {}
         }
-        let is_free = |name: &Box<str>| places.is_free(name);
-        places.is_granted |=
-            self.common.held.is_superset(&places.wish) && places.wish.iter().all(is_free);
+        let is_held = self.common.held.is_superset(&places.wish);
+        let mut wish = places.wish.iter();
+        let is_free = wish.all(|name| places.is_free(name));
+        places.is_granted |= is_held && is_free;
     }
 
     /// Asks all whose permission it needs.
