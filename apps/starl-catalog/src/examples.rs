@@ -82,8 +82,9 @@ pub const EXAMPLES: &[Example] = &[
         "intersection.toml",
         [
             "intersection.starl",
+            "light.starl",
             "junction.starl",
-            "rules.starl",
+            "signals.starl",
             "traffic.starl"
         ]
     ),
@@ -94,8 +95,9 @@ pub const EXAMPLES: &[Example] = &[
         "stream.toml",
         [
             "intersection.starl",
+            "light.starl",
             "junction.starl",
-            "rules.starl",
+            "signals.starl",
             "traffic.starl"
         ]
     ),

@@ -88,9 +88,9 @@ robots = ["Robot1", "Robot3"]
 fn opposite_lanes_at_once() {
     // Both go straight on, one to the east and one to the west.
     let straight = ["robots.0.parameters.dest=d1", "robots.2.parameters.dest=a1"];
-    let at_once = |control: &str, seed: u64| {
+    let at_once = |as_one: &str, seed: u64| {
         let seed = format!("seed={seed}");
-        let sets = [straight[0], straight[1], control, &seed];
+        let sets = [straight[0], straight[1], as_one, &seed];
         let traffic = drive("intersection", &sets, ONLY_TWO);
         assert!(
             traffic.violations.is_empty(),
@@ -102,7 +102,7 @@ fn opposite_lanes_at_once() {
         traffic.holders().contains(&both)
     };
     for seed in 0..SEEDS {
-        assert!(at_once("parameters.control=zones", seed), "{seed}");
-        assert!(!at_once("parameters.control=whole", seed), "{seed}");
+        assert!(at_once("parameters.as_one=false", seed), "{seed}");
+        assert!(!at_once("parameters.as_one=true", seed), "{seed}");
     }
 }
