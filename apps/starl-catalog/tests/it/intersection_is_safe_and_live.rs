@@ -76,6 +76,16 @@ fn cars_that_crash_and_restart() {
     });
 }
 
+#[test]
+fn with_traffic_lights() {
+    for lights in ["program=light.starl", "parameters.lights=2"] {
+        with_seeds(&[lights, "duration=90s"], |traffic, seed| {
+            assert_eq!(traffic.outcome, Some(Outcome::Reached), "{lights} {seed}");
+            assert_eq!(traffic.passed(), [0, 1, 2, 3], "{lights} {seed}");
+        });
+    }
+}
+
 /// The other two break down where they start.
 const ONLY_TWO: &str = r#"
 [[fault]]

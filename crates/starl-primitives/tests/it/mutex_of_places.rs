@@ -144,7 +144,7 @@ impl Yard {
     fn run(&mut self, span: Duration) {
         let end = self.now + span;
         while self.now < end {
-            self.now = self.now + STEP;
+            self.now += STEP;
             for index in 0..self.robots.len() {
                 let timers = &mut self.robots[index].timers;
                 let due: Vec<TimerKey> = timers

@@ -27,7 +27,7 @@ fn drive(bench: &mut Bench, until: f64) {
 /// The robot is at a place, sees a robot at each of the others, and is activated 100 ms later.
 fn see(bench: &mut Bench, position: Point, others: &[Point]) {
     bench.at(position);
-    bench.now = bench.now + Duration::from_millis(100);
+    bench.now += Duration::from_millis(100);
     let seen = others.iter().zip(1..).map(|(&position, id)| Detection {
         what: Detected::Robot(RobotId(id)),
         position,
