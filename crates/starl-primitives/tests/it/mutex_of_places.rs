@@ -217,6 +217,19 @@ fn robots_far_away_are_not_asked() {
 }
 
 #[test]
+fn another_request_gives_back_what_is_held() {
+    let mut yard = Yard::new(&[SOUTH, NORTH]);
+    yard.acquire(0, &["west"]);
+    yard.run(SECOND);
+    yard.acquire(0, &["west", "east"]);
+    yard.run(SECOND);
+    assert!(yard.holds(0, "west") && yard.holds(0, "east"));
+    yard.acquire(0, &["east"]);
+    yard.run(SECOND);
+    assert_eq!(*yard.robots[0].mutex.held(), set(&["east"]));
+}
+
+#[test]
 fn a_place_in_which_a_robot_stands_is_left_to_others() {
     let mut yard = Yard::new(&[SOUTH, NORTH, [-1.0, 0.0]]);
     yard.acquire(0, &["west", "east"]);

@@ -3,7 +3,8 @@
 //! Permissions alone do not keep robots apart where the network is in parts, or where a robot has crashed, or has
 //! restarted and forgotten what it held. Such robots stand in a place or before it, and others see them. So with
 //! places:
-//! - a robot asks the participants and all robots that it sees near the places; the file `turns.rs` is about those that are silent;
+//! - a robot asks the participants and all robots that it sees near the places; the file `turns.rs` is about those that
+//!   are silent;
 //! - a request for a place in which a robot stands is withdrawn and made again when it has left, so that others can have
 //!   the places meanwhile;
 //! - a place that is granted does not count as held while another robot is seen there;
@@ -176,12 +177,12 @@ impl Mutex {
     }
 
     fn tend(&mut self, places: &mut Places, robot: &mut Robot<'_>) {
-        if places.wish.is_empty() || !self.common.held.is_subset(&places.wish) {
-            // Only a fault, or another wish, leaves something that the program does not ask for.
+        let held = &self.common.held;
+        let holds_others = !held.is_empty() && *held != places.wish;
+        if holds_others || places.wish.is_empty() && self.is_waiting() {
+            // Another wish, or a fault: all that is needed is asked for at once.
             let known = self.known_resources();
-            if !self.common.held.is_empty() || self.is_waiting() {
-                self.give_back(robot, &known);
-            }
+            self.give_back(robot, &known);
         }
         if places.wish.is_empty() {
             (places.asked, places.is_granted) = (None, false);
