@@ -81,8 +81,9 @@ pub const EXAMPLES: &[Example] = &[
         "intersection.toml",
         [
             "intersection.starl",
+            "light.starl",
             "junction.starl",
-            "rules.starl",
+            "signals.starl",
             "traffic.starl"
         ]
     ),
@@ -93,8 +94,9 @@ pub const EXAMPLES: &[Example] = &[
         "stream.toml",
         [
             "intersection.starl",
+            "light.starl",
             "junction.starl",
-            "rules.starl",
+            "signals.starl",
             "traffic.starl"
         ]
     ),

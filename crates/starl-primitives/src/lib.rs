@@ -24,6 +24,7 @@ pub mod register;
 pub mod registration;
 pub mod reliable;
 pub mod shared_memory;
+mod sight;
 pub mod unicast;
 
 pub use barrier::Barrier;

@@ -76,6 +76,16 @@ fn cars_that_crash_and_restart() {
     });
 }
 
+#[test]
+fn with_traffic_lights() {
+    for lights in ["program=light.starl", "parameters.lights=2"] {
+        with_seeds(&[lights, "duration=90s"], |traffic, seed| {
+            assert_eq!(traffic.outcome, Some(Outcome::Reached), "{lights} {seed}");
+            assert_eq!(traffic.passed(), [0, 1, 2, 3], "{lights} {seed}");
+        });
+    }
+}
+
 /// The other two break down where they start.
 const ONLY_TWO: &str = r#"
 [[fault]]
@@ -88,9 +98,9 @@ robots = ["Robot1", "Robot3"]
 fn opposite_lanes_at_once() {
     // Both go straight on, one to the east and one to the west.
     let straight = ["robots.0.parameters.dest=d1", "robots.2.parameters.dest=a1"];
-    let at_once = |control: &str, seed: u64| {
+    let at_once = |as_one: &str, seed: u64| {
         let seed = format!("seed={seed}");
-        let sets = [straight[0], straight[1], control, &seed];
+        let sets = [straight[0], straight[1], as_one, &seed];
         let traffic = drive("intersection", &sets, ONLY_TWO);
         assert!(
             traffic.violations.is_empty(),
@@ -102,7 +112,7 @@ fn opposite_lanes_at_once() {
         traffic.holders().contains(&both)
     };
     for seed in 0..SEEDS {
-        assert!(at_once("parameters.control=zones", seed), "{seed}");
-        assert!(!at_once("parameters.control=whole", seed), "{seed}");
+        assert!(at_once("parameters.as_one=false", seed), "{seed}");
+        assert!(!at_once("parameters.as_one=true", seed), "{seed}");
     }
 }

@@ -5,14 +5,21 @@ use crate::intersection_support::{Traffic, drive};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-const CONTROLS: [&str; 4] = ["zones", "whole", "light", "light_and_zones"];
+/// The variants of the README, with the setting that selects each.
+const CONTROLS: [(&str, &str); 4] = [
+    ("zones", "parameters.as_one=false"),
+    ("whole", "parameters.as_one=true"),
+    ("light", "program=light.starl"),
+    ("light_and_zones", "parameters.lights=2"),
+];
 
 /// One in five datagrams is lost, and the others take 100 ms.
 const BAD_NETWORK: [&str; 2] = ["network.loss=0.2", "network.delay=100ms"];
 
 fn traffic(control: &str, rate: u32, draw: u32, network: &[&str]) -> Traffic {
+    let setting = CONTROLS.iter().find(|(name, _)| *name == control);
     let sets = [
-        format!("parameters.control={control}"),
+        setting.expect("a variant").1.to_string(),
         format!("parameters.rate={rate}"),
         format!("parameters.draw={draw}"),
         format!("seed={draw}"),
@@ -33,7 +40,7 @@ fn measure() {
     let draws = from("DRAWS", "5").parse().expect("a number of draws");
     let (rates, controls) = (
         from("RATES", "10 20 30 40"),
-        from("CONTROLS", &CONTROLS.join(" ")),
+        from("CONTROLS", &CONTROLS.map(|(name, _)| name).join(" ")),
     );
     let network: &[&str] = match from("NETWORK", "good").as_str() {
         "bad" => &BAD_NETWORK,

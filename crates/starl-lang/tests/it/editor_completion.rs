@@ -53,11 +53,15 @@ fn after_the_dot_of_a_primitive_its_members() {
         found,
         [
             "active",
+            "along",
             "done",
+            "drive_lane",
             "failed",
             "follow",
+            "free",
             "reach_avoid",
             "reason",
+            "stood",
             "stop",
             "target"
         ]

@@ -1,6 +1,8 @@
 //! Mutex in programs: figure 3.1 on several robots, and what a program gets wrong with it.
 
 use crate::robot_support::{World, compile};
+use starl_core::sensor::{Detected, Detection};
+use starl_core::{Point, RobotId};
 
 /// The thesis's figure 3.1, with what it leaves out: the use of the resources takes five activations.
 const USAGE: &str = r#"
@@ -78,4 +80,37 @@ fn a_holder_that_requests_more_gets_an_error() {
     let text = (0..2).find_map(|robot| world.failure(robot));
     let text = text.expect("a robot stops");
     assert!(text.contains("already holds resources"), "{text}");
+}
+
+const PLACES: &str = r#"
+program Places
+
+param patience: Duration = 30s
+
+mux = Mutex("0", {}, places = {"gate": circle(Point(3.0, 0.0), 1m)}, patience = patience)
+has: Bool = false
+
+ask()
+    pre not mux.waiting and not mux.held({"gate"})
+    eff mux.acquire({"gate"})
+
+note()
+    pre has != mux.held({"gate"})
+    eff has = not has
+"#;
+
+#[test]
+fn a_place_is_held_while_no_other_robot_is_seen_there() {
+    let mut world = World::of(&compile(PLACES), 1);
+    world.steps(3);
+    assert_eq!(world.get(0, "has").to_string(), "true");
+    world.robots[0].detections = vec![Detection {
+        what: Detected::Robot(RobotId(1)),
+        position: Point::planar(2.5, 0.0),
+    }];
+    world.steps(1);
+    assert_eq!(world.get(0, "has").to_string(), "false");
+    world.robots[0].detections.clear();
+    world.steps(2);
+    assert_eq!(world.get(0, "has").to_string(), "true");
 }

@@ -2,7 +2,8 @@
 
 use crate::robot_support::{World, compile};
 use starl_core::event::{PrimitiveEvent, ReachAvoidEvent};
-use starl_core::{Event, Obstacle, Point};
+use starl_core::sensor::{Detected, Detection};
+use starl_core::{Event, Obstacle, Point, RobotId};
 
 const MOVES: &str = r#"
 program Moves
@@ -82,6 +83,45 @@ fn it_follows_a_list_of_points() {
         Point::planar(1.0, 2.0),
     ];
     assert_eq!(paths.collect::<Vec<_>>(), [path]);
+}
+
+const LANE: &str = r#"
+program Lane
+
+motion = ReachAvoid(gap = 50cm)
+goes: Bool = false
+ways: List[Float]
+
+go()
+    pre not goes
+    eff motion.drive_lane([Point(0.0, 0.0), Point(9.0, 0.0)], 6m); goes = true
+
+/// It depends on nothing that the program or a message changes.
+note()
+    pre goes and (ways.last() ?? 0.0) != motion.free()
+    eff ways.add(motion.free())
+"#;
+
+#[test]
+fn it_drives_in_a_lane_and_tells_how_far_it_is_free() {
+    let mut world = World::of(&compile(LANE), 1);
+    world.steps(3);
+    for x in [7.0, 8.0] {
+        world.robots[0].detections = vec![Detection {
+            what: Detected::Robot(RobotId(1)),
+            position: Point::planar(x, 0.0),
+        }];
+        world.steps(3);
+    }
+    assert_eq!(world.get(0, "ways").to_string(), "[9.0, 6.5, 7.5]");
+    let starts = world.events_of(0).filter_map(|event| match event {
+        Event::Primitive {
+            event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Start { target, .. }),
+            ..
+        } => Some(*target),
+        _ => None,
+    });
+    assert_eq!(starts.last(), Some(Point::planar(6.0, 0.0)));
 }
 
 const STOPS: &str = r#"

@@ -18,6 +18,8 @@
 //! The resources of a crashed robot stay locked until it is up again, when it holds nothing; with leases
 //! until its lease ends.
 //!
+//! Resources that are [`places`] are kept apart by sight too: [`Mutex::with_places`].
+//!
 //! After a corruption of its state a robot may believe that it holds a resource of another robot, until it releases it.
 //! From then on all guarantees hold again.
 
@@ -26,17 +28,20 @@ mod common;
 mod lease;
 mod options;
 mod permission;
+mod places;
 mod quorum;
 
 pub use options::{Algorithm, Options};
+pub use places::PlaceOptions;
 
 use alloc::boxed::Box;
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use arbitration::Arbitration;
 use common::Common;
 use permission::Permission;
+use places::Places;
 use starl_core::event::MutexEvent;
-use starl_core::{Input, Port, Primitive, Random, Robot, RobotId};
+use starl_core::{Area, Input, Port, Primitive, Random, Robot, RobotId};
 
 /// Names of resources.
 pub type Resources = BTreeSet<Box<str>>;
@@ -46,6 +51,8 @@ pub type Resources = BTreeSet<Box<str>>;
 pub struct Mutex {
     common: Common,
     protocol: Protocol,
+    /// Where resources are, if they are places.
+    places: Option<Box<Places>>,
 }
 
 /// The state of the algorithm.
@@ -84,25 +91,59 @@ impl Mutex {
                 Algorithm::Permission => Protocol::Permission(Permission::default()),
                 Algorithm::Quorum | Algorithm::Lease => Protocol::Arbitration(Box::default()),
             },
+            places: None,
         }
     }
 
-    /// Changes the participants from the next request on.
+    /// Resources with these names are places in the floor plane: robots see whether another is there, and ask all that
+    /// they see nearby. The robots need detectors.
+    #[must_use]
+    pub fn with_places(mut self, areas: BTreeMap<Box<str>, Area>, options: PlaceOptions) -> Mutex {
+        let mut places = Places::new(areas, options);
+        places.members = self.common.participants.take();
+        self.places = Some(Box::new(places));
+        self
+    }
+
+    /// Whether its resources are places: then it looks around whenever the robot is activated.
+    pub fn has_places(&self) -> bool {
+        self.places.is_some()
+    }
+
+    /// Changes the participants from the next request on, with places at once.
     pub fn set_participants(&mut self, participants: Option<BTreeSet<RobotId>>) {
-        self.common.participants = participants;
+        match &mut self.places {
+            Some(places) => places.members = participants,
+            None => self.common.participants = participants,
+        }
     }
 
     /// Requests all of these resources at once (the thesis's do_mutex). A pending request is withdrawn, unless it
     /// is for the same resources: that one keeps its turn, and with [`Algorithm::Permission`] the current
     /// participants are asked. An empty set needs no request and counts as held.
     ///
+    /// With places the request lasts until it is withdrawn: it is made when no robot stands in them, and made again
+    /// whenever the robot has given way. Other resources that the robot holds are given back.
+    ///
     /// # Errors
-    /// If the robot holds something.
+    /// If the robot holds something, and the resources are not places.
     pub fn acquire(
         &mut self,
         robot: &mut Robot<'_>,
         resources: Resources,
     ) -> Result<(), AcquireError> {
+        let Some(places) = &mut self.places else {
+            return self.request(robot, resources);
+        };
+        if *places.wish() != resources {
+            places.set_wish(resources);
+            self.tend_places(robot);
+        }
+        Ok(())
+    }
+
+    /// Requests resources by the algorithm.
+    fn request(&mut self, robot: &mut Robot<'_>, resources: Resources) -> Result<(), AcquireError> {
         let common = &mut self.common;
         if !common.held.is_empty() {
             return match common.held.is_superset(&resources) {
@@ -128,6 +169,23 @@ impl Mutex {
 
     /// Releases all held resources or some; requests for them are withdrawn.
     pub fn release(&mut self, robot: &mut Robot<'_>, resources: &Resources) {
+        if let Some(places) = &mut self.places {
+            places.give_back(resources);
+        }
+        self.release_by_algorithm(robot, resources);
+    }
+
+    /// Releases all held resources, and withdraws all requests.
+    pub fn release_all(&mut self, robot: &mut Robot<'_>) {
+        let mut known = self.known_resources();
+        if let Some(places) = &self.places {
+            known.extend(places.wish().iter().cloned());
+        }
+        self.release(robot, &known);
+    }
+
+    /// Releases resources by the algorithm.
+    fn release_by_algorithm(&mut self, robot: &mut Robot<'_>, resources: &Resources) {
         let common = &mut self.common;
         let left: Resources = common.held.intersection(resources).cloned().collect();
         if !left.is_empty() {
@@ -143,10 +201,16 @@ impl Mutex {
 
     /// Whether this robot holds all of these resources.
     pub fn holds(&self, resources: &Resources) -> bool {
-        self.common.held.is_superset(resources)
+        resources.iter().all(|resource| self.has(resource))
     }
 
-    /// The resources that this robot holds.
+    /// Whether this robot holds the resource. One that is a place it holds only while it sees no other robot there.
+    pub fn has(&self, resource: &str) -> bool {
+        let places = self.places.as_ref();
+        self.common.held.contains(resource) && places.is_none_or(|places| places.is_free(resource))
+    }
+
+    /// The resources that are granted to this robot.
     pub fn held(&self) -> &Resources {
         &self.common.held
     }
@@ -168,6 +232,11 @@ impl Mutex {
 
     /// Whether a request is under way.
     pub fn is_waiting(&self) -> bool {
+        if let Some(places) = &self.places
+            && places.has_wish()
+        {
+            return !self.common.held.is_superset(places.wish());
+        }
         // A fault may have left a request for nothing, which would wait for ever.
         self.wanted().is_some_and(|wanted| !wanted.is_empty())
     }
@@ -188,6 +257,9 @@ impl Mutex {
         self.common.corrupt(random, held);
         let wanted = some(random);
         each!(&mut self.protocol, state => state.corrupt(random, wanted));
+        if let Some(places) = &mut self.places {
+            places.corrupt(random);
+        }
     }
 
     /// All resources that this robot knows: those that it or others hold, request or held.
@@ -217,6 +289,12 @@ impl Primitive for Mutex {
     }
 
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        if matches!(input, Input::Activate)
+            && let Some(places) = &mut self.places
+        {
+            places.look(robot);
+            self.tend_places(robot);
+        }
         let common = &mut self.common;
         if let Protocol::Arbitration(state) = &mut self.protocol {
             state.look(common, robot);

@@ -14,6 +14,9 @@ impl ReachAvoid {
         self.failed = random.chance(0.5);
         self.reason = None;
         self.ticket = random.bits();
+        if self.lane.is_some() {
+            self.corrupt_lane(random);
+        }
         if random.chance(0.5) {
             self.command = None;
         }

@@ -11,17 +11,22 @@
 //! - progress: it is not active for ever. In each [`Options::stuck_after`] the way ahead shrinks by
 //!   [`Options::least_progress`] or a re-plan is spent; there are [`Options::most_replans`] of them.
 //!
+//! [`ReachAvoid::drive_lane`] follows a line up to a limit that can be moved, at a distance from the robots on it.
+//!
 //! The flags are the thesis's: `active` while it is under way, `done`, `failed`, and none of them once
 //! it has given up.
 
 mod corrupt;
 mod following;
+mod lane;
 mod options;
 mod planning;
 mod route;
 
 pub use options::Options;
 
+use alloc::boxed::Box;
+use lane::Lane;
 use route::Route;
 use starl_core::event::ReachAvoidEvent;
 use starl_core::event::moving::Trouble;
@@ -42,6 +47,8 @@ pub struct ReachAvoid {
     options: Options,
     /// The command under way; none if inactive.
     command: Option<Command>,
+    /// The lane that the robot drives in; then the command is a part of it.
+    lane: Option<Box<Lane>>,
     done: bool,
     failed: bool,
     /// Why the last command failed or was given up.
@@ -97,6 +104,7 @@ impl ReachAvoid {
             port,
             options,
             command: None,
+            lane: None,
             done: false,
             failed: false,
             reason: None,
@@ -109,6 +117,7 @@ impl ReachAvoid {
     /// ([`starl_core::motion::Body::reachable`]). If it is not finite the command is given up at once;
     /// if the robot is in the unsafe set it has failed.
     pub fn reach_avoid(&mut self, robot: &mut Robot<'_>, target: Point, unsafe_set: Obstacles) {
+        self.lane = None;
         let was_active = self.clear();
         if was_active {
             robot.halt();
@@ -124,6 +133,12 @@ impl ReachAvoid {
     /// path are. Where one of the straight ways is not free a path to the last point is planned, and so whenever one
     /// has to be planned again. Without points it is given up at once.
     pub fn follow(&mut self, robot: &mut Robot<'_>, points: &[Point], unsafe_set: Obstacles) {
+        self.lane = None;
+        self.set_out_along(robot, points, unsafe_set);
+    }
+
+    /// Goes over these points.
+    fn set_out_along(&mut self, robot: &mut Robot<'_>, points: &[Point], unsafe_set: Obstacles) {
         let Some(&target) = points.last() else {
             self.clear();
             return self.give_up(robot, Trouble::NoPoints);
@@ -170,6 +185,7 @@ impl ReachAvoid {
 
     /// Stops and stays; all flags become false.
     pub fn stop(&mut self, robot: &mut Robot<'_>) {
+        self.lane = None;
         if self.clear() {
             robot.cancel_timer(self.timer());
             robot.report(self.port, ReachAvoidEvent::Stop);
@@ -177,9 +193,12 @@ impl ReachAvoid {
         robot.halt();
     }
 
-    /// Whether a command is under way.
+    /// Whether a command is under way. In a lane it is until the robot comes to the limit, also while it waits.
     pub fn active(&self) -> bool {
-        self.command.is_some()
+        match self.is_at_limit() {
+            Some(is_at_limit) => !is_at_limit,
+            None => self.command.is_some(),
+        }
     }
 
     /// Where the command under way leads, as it was given, metres; none if there is none.
@@ -187,9 +206,9 @@ impl ReachAvoid {
         self.command.as_ref().map(|command| command.target)
     }
 
-    /// Whether the last command brought the robot to the vicinity of its target.
+    /// Whether the last command brought the robot to the vicinity of its target, in a lane to its limit.
     pub fn done(&self) -> bool {
-        self.done
+        self.is_at_limit().unwrap_or(self.done)
     }
 
     /// Whether the robot entered the unsafe set during the last command, or the wind is stronger than it can hold
@@ -234,6 +253,9 @@ impl Primitive for ReachAvoid {
     }
 
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        if matches!(input, Input::Activate) {
+            return self.look_ahead(robot);
+        }
         let Some(command) = &self.command else { return };
         match input {
             Input::Estimate => self.located(robot),

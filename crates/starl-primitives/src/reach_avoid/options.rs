@@ -29,6 +29,8 @@ pub struct Options {
     /// A robot that moves faster than this brakes before it asks for a path, metres per second. Default
     /// 0.15.
     pub rest_speed: f64,
+    /// In a lane the robot keeps the centres of others at this distance from its own, metres. Default 0.75.
+    pub gap: f64,
     /// Which planner.
     pub planner: Planner,
     /// A planner gives up when its tree has this many nodes. Default 20,000.
@@ -47,6 +49,7 @@ impl Default for Options {
             most_plan_failures: 3,
             plan_pause: Duration::from_millis(500),
             rest_speed: 0.15,
+            gap: 0.75,
             planner: Planner::Auto,
             most_nodes: 20_000,
         }

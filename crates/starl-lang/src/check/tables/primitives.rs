@@ -55,7 +55,7 @@ const FAILED: &[Event] = &[Event {
 /// All primitives.
 pub const PRIMITIVES: &[Primitive] = &[
     Primitive {
-        constructor: "ReachAvoid(vicinity?: Float, pass_radius?: Float, off_path?: Float, stuck_after?: Duration, most_replans?: Int, planner?: Planner, most_nodes?: Int)",
+        constructor: "ReachAvoid(vicinity?: Float, pass_radius?: Float, off_path?: Float, stuck_after?: Duration, most_replans?: Int, planner?: Planner, most_nodes?: Int, gap?: Float)",
         members: &[
             member(
                 "reach_avoid(target: Point, unsafe: Obstacles)",
@@ -66,6 +66,26 @@ pub const PRIMITIVES: &[Primitive] = &[
                 "follow(points: List[Point], unsafe: Obstacles)",
                 Effect,
                 "Drives through the points to the last one and keeps out of the unsafe set; it does not stop before or between.",
+            ),
+            member(
+                "drive_lane(line: List[Point], until: Float)",
+                Effect,
+                "Drives along a line until it is `until` metres from its start; stops before robots in sight less than `gap` from the line ahead, and continues when there is room. A new command with the same line moves the limit without a stop.",
+            ),
+            member(
+                "along: Float",
+                Query,
+                "How far along the lane the robot is, metres; 0 before it has one.",
+            ),
+            member(
+                "free(standing?: Duration) -> Float",
+                Query,
+                "How far along the lane no robot in sight is in the way, metres; if a time is given, no robot that has stood for it, or was never seen to move.",
+            ),
+            member(
+                "stood: Duration",
+                Query,
+                "How long the robot has been standing in its lane.",
             ),
             member("stop()", Effect, "Stops the robot; all flags become false."),
             member("active: Bool", Query, "Whether a command is in progress."),
@@ -210,7 +230,7 @@ pub const PRIMITIVES: &[Primitive] = &[
         documentation: "Detects failed robots by their heartbeats.",
     },
     Primitive {
-        constructor: "Mutex(id: String, participants?: Set[RobotId], algorithm?: MutexAlgorithm, lease?: Duration, repeat?: Duration)",
+        constructor: "Mutex(id: String, participants?: Set[RobotId], algorithm?: MutexAlgorithm, lease?: Duration, repeat?: Duration, places?: Map[String, Area], patience?: Duration)",
         members: &[
             member(
                 "acquire(resources: Set[String], participants?: Set[RobotId])",
@@ -225,7 +245,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "held(resources: Set[String]) -> Bool",
                 Query,
-                "Whether this robot holds them, exclusively (the thesis's crit).",
+                "Whether this robot holds them, exclusively (the thesis's crit); places only while no other robot is seen there.",
             ),
             member(
                 "waiting: Bool",

@@ -1,7 +1,7 @@
 //! A hash index of the keys of a map, so that looking up does not depend on how many there are.
 //!
 //! A map stays a row of keys in ascending order, which is what it means: how it is compared, recorded and run over. The
-//! index is no part of its value. It is made when a map has been asked as often as it has keys without getting new ones,
+//! index does not belong to its value. It is made when a map has been asked as often as it has keys without getting new ones,
 //! and forgotten when it gets or loses one. Open addressing with linear probing (Knuth, "The Art of Computer
 //! Programming", volume 3, section 6.4). Keys that hash to one place are searched by bisection after [`LONGEST`] of them,
 //! so that no keys make it slower than that.

@@ -67,9 +67,12 @@ impl Primitive for Attended<'_> {
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         let kind = KINDS.get(usize::from(self.form.kind));
         let is_needed = kind.is_none_or(|kind| kind.attention.is_paid_to(input));
-        if !is_needed && !self.slot.is_stirred {
+        let looks = matches!(input, Input::Activate) && self.slot.bound.looks();
+        if !is_needed && !looks && !self.slot.is_stirred {
             return;
         }
+        // The guards may depend on the robots that it sees.
+        *self.rests &= !looks;
         self.slot.is_stirred = false;
         if let Some(primitive) = self.slot.bound.primitive() {
             let rests = &mut *self.rests;

@@ -171,6 +171,12 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     fn target(&self) -> Option<Point> {
         None
     }
+
+    /// Whether it reads sensors when the robot is activated, whatever [`Kind::ATTENTION`] says. Its answers may
+    /// change with each activation.
+    fn looks(&self) -> bool {
+        false
+    }
 }
 
 /// A bound primitive of some kind. `Debug` shows all of its state.
@@ -194,6 +200,8 @@ pub trait Bound: DynClone + fmt::Debug + Send + Sync {
     fn reset(&mut self, robot: &mut Robot<'_>);
     /// See [`Kind::target`].
     fn target(&self) -> Option<Point>;
+    /// See [`Kind::looks`].
+    fn looks(&self) -> bool;
 }
 
 dyn_clone::clone_trait_object!(Bound);
@@ -233,6 +241,10 @@ impl<P: Kind> Bound for P {
 
     fn target(&self) -> Option<Point> {
         Kind::target(self)
+    }
+
+    fn looks(&self) -> bool {
+        Kind::looks(self)
     }
 }
 

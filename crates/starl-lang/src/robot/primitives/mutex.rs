@@ -1,26 +1,30 @@
 //! Mutex in programs.
 
 use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
-use crate::machine::List;
+use crate::machine::{Body, List, Object};
 use crate::robot::shape::{MUTEX_ALGORITHMS, Shape};
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
-use starl_core::{Primitive, Random, Robot, RobotId};
+use alloc::vec::Vec;
+use starl_core::{Area, Primitive, Random, Robot, RobotId};
 use starl_primitives::Mutex;
-use starl_primitives::mutex::{AcquireError, Options, Resources};
+use starl_primitives::mutex::{AcquireError, Options, PlaceOptions, Resources};
 
 impl Kind for Mutex {
     const NAME: &'static str = "Mutex";
 
-    /// The name of the mutex, the participants (all, if none are given), the algorithm, the duration of a lease, and
-    /// the longest time between repetitions of a request.
+    /// The name of the mutex, the participants (all, if none are given), the algorithm, the duration of a lease, the
+    /// longest time between repetitions of a request, the areas of resources that are places, and how long silent robots
+    /// near them are waited for.
     const CONSTRUCTOR: &'static [Shape] = &[
         Shape::Text,
         Shape::Optional(&Shape::Set(&Shape::Robot)),
         Shape::Optional(&Shape::MutexAlgorithm),
         Shape::Optional(&Shape::Duration),
+        Shape::Optional(&Shape::Duration),
+        Shape::Optional(&Shape::Map(&Shape::Text, &Shape::Area)),
         Shape::Optional(&Shape::Duration),
     ];
 
@@ -56,8 +60,10 @@ impl Kind for Mutex {
                 if !mutex.crit() && !mutex.is_waiting() {
                     return Ok(10);
                 }
-                let given = Arguments::after_instance(call).optional(texts);
-                let resources = given.unwrap_or_else(|| mutex.known_resources());
+                let Some(resources) = Arguments::after_instance(call).optional(texts) else {
+                    mutex.release_all(context.robot);
+                    return Ok(10);
+                };
                 mutex.release(context.robot, &resources);
                 Ok(10 + resources.len() as u64)
             },
@@ -72,7 +78,7 @@ impl Kind for Mutex {
                 let (mut count, mut held) = (0, true);
                 for resource in names(arguments) {
                     count += 1;
-                    held &= mutex.held().contains(resource);
+                    held &= mutex.has(resource);
                 }
                 call.set_bool(0, held);
                 Ok(1 + count)
@@ -136,7 +142,25 @@ impl Kind for Mutex {
                 return Err(format!("`{name}` must be greater than 0 s").into());
             }
         }
-        Ok(Mutex::new(&name, participants, options))
+        let places = arguments.optional(areas).transpose()?;
+        let default = PlaceOptions::default();
+        let patience = arguments
+            .optional(Arguments::duration)
+            .unwrap_or(default.patience);
+        if patience.is_zero() {
+            return Err("`patience` must be greater than 0 s".into());
+        }
+        let mutex = Mutex::new(&name, participants, options);
+        Ok(match places {
+            Some(places) => mutex.with_places(
+                places,
+                PlaceOptions {
+                    patience,
+                    ..default
+                },
+            ),
+            None => mutex,
+        })
     }
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
@@ -149,9 +173,32 @@ impl Kind for Mutex {
     }
 
     fn reset(&mut self, robot: &mut Robot<'_>) {
-        let known = self.known_resources();
-        self.release(robot, &known);
+        self.release_all(robot);
     }
+
+    fn looks(&self) -> bool {
+        self.has_places()
+    }
+}
+
+/// Areas by their names.
+fn areas(arguments: &mut Arguments<'_>) -> Result<BTreeMap<Box<str>, Area>, Cow<'static, str>> {
+    let Some(Body::Map(map)) = arguments.object().body() else {
+        return Ok(BTreeMap::new());
+    };
+    let elements = |object: &Object| -> Vec<Object> {
+        let blocks = object.list().into_iter().flat_map(List::iter);
+        blocks
+            .filter_map(|block| block.objects.first().cloned())
+            .collect()
+    };
+    let pairs = elements(map.keys()).into_iter().zip(elements(map.values()));
+    pairs
+        .map(|(name, area)| match area.area() {
+            Some(area) => Ok((name.text().into(), area.clone())),
+            None => Err("there is no area".into()),
+        })
+        .collect()
 }
 
 /// A set of texts.

@@ -11,7 +11,7 @@ impl Kind for ReachAvoid {
     const NAME: &'static str = "ReachAvoid";
 
     /// Vicinity, pass radius and distance off the path, metres; time without progress; re-plans; the
-    /// planner and how large its tree may be.
+    /// planner and how large its tree may be; the distance from others in a lane, metres.
     const CONSTRUCTOR: &'static [Shape] = &[
         Shape::Optional(&Shape::Float),
         Shape::Optional(&Shape::Float),
@@ -20,6 +20,7 @@ impl Kind for ReachAvoid {
         Shape::Optional(&Shape::Int),
         Shape::Optional(&Shape::Planner),
         Shape::Optional(&Shape::Int),
+        Shape::Optional(&Shape::Float),
     ];
 
     const MEMBERS: &'static [Member<ReachAvoid>] = &[
@@ -47,6 +48,37 @@ impl Kind for ReachAvoid {
                 Ok(10 + points.len() as u64)
             },
         ),
+        method(
+            "drive_lane",
+            &[Shape::List(&Shape::Point), Shape::Float],
+            None,
+            |motion, context, call| {
+                let mut arguments = Arguments::after_instance(call);
+                let line = arguments.points();
+                let until = arguments.float();
+                motion.drive_lane(context.robot, &line, until);
+                Ok(10 + line.len() as u64)
+            },
+        ),
+        query("along", &[], Shape::Float, |motion, _, call| {
+            call.set_scalar(0, motion.along().to_bits());
+            Ok(0)
+        }),
+        query(
+            "free",
+            &[Shape::Optional(&Shape::Duration)],
+            Shape::Float,
+            |motion, context, call| {
+                let standing = Arguments::after_instance(call).optional(Arguments::duration);
+                let free = motion.free(context.robot.now(), standing.unwrap_or_default());
+                call.set_scalar(0, free.to_bits());
+                Ok(10)
+            },
+        ),
+        query("stood", &[], Shape::Duration, |motion, context, call| {
+            call.set_scalar(0, motion.stood(context.robot.now()).0);
+            Ok(0)
+        }),
         method("stop", &[], None, |motion, context, _| {
             motion.stop(context.robot);
             Ok(1)
@@ -119,6 +151,7 @@ impl Kind for ReachAvoid {
                 }
             },
             most_nodes: count(arguments, "most_nodes", default.most_nodes)?,
+            gap: length(arguments, "gap", default.gap)?,
             ..default
         };
         if options.stuck_after.is_zero() {
@@ -147,6 +180,10 @@ impl Kind for ReachAvoid {
 
     fn target(&self) -> Option<Point> {
         self.target()
+    }
+
+    fn looks(&self) -> bool {
+        self.is_in_lane()
     }
 }
 

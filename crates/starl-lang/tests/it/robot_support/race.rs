@@ -17,7 +17,7 @@ variable currentIndex Int
 variable target type0
 import way_points query () (type0)
 import emit (type1, Int) () labels index
-import ReachAvoid.bind (Int, Float?, Float?, Float?, Duration?, Int?, enum1?, Int?) ()
+import ReachAvoid.bind (Int, Float?, Float?, Float?, Duration?, Int?, enum1?, Int?, Float?) ()
 import ReachAvoid.reach_avoid (Int, Point, type2) ()
 import ReachAvoid.active query (Int) (Bool)
 import ReachAvoid.done query (Int) (Bool)
@@ -42,7 +42,7 @@ function defaults procedure () () registers 1 objects 0
     store v0 r0
     return #0 #0
 
-function start procedure () () registers 16 objects 1
+function start procedure () () registers 18 objects 1
     int r0 0
     int r1 1
     load r2 v0
@@ -58,6 +58,8 @@ function start procedure () () registers 16 objects 1
     int r12 0
     int r13 0
     int r14 0
+    int r15 0
+    int r16 0
     call_host r0 b0 h2
     int r0 1
     int r1 0

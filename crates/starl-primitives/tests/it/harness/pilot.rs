@@ -2,6 +2,7 @@
 
 use starl_core::effect::Effects;
 use starl_core::motion::{Body, Obstacles, PlanRequest, Workspace};
+use starl_core::sensor::Detection;
 use starl_core::{
     ConvexPolygon, Duration, Effect, Estimate, Event, Input, MotionRequest, Obstacle, Point, Pose,
     Primitive, Random, Robot, RobotId, Sensors, Time, TimerKey, Twist, View,
@@ -16,6 +17,8 @@ pub struct Bench {
     pub now: Time,
     pub body: Body,
     pub known: Obstacles,
+    /// The readings of its detector.
+    pub detections: Vec<Detection>,
     /// All requests to the planner, in order.
     pub plans: Vec<PlanRequest>,
     /// The waypoint tracked and the one after it; none once halted.
@@ -45,6 +48,7 @@ impl Bench {
             now: Time::ZERO,
             body: GROUND,
             known: [].into(),
+            detections: Vec::new(),
             plans: Vec::new(),
             tracked: None,
             events: Vec::new(),
@@ -102,7 +106,10 @@ impl Bench {
                 ..Estimate::default()
             },
             body: self.body,
-            sensors: Sensors::default(),
+            sensors: Sensors {
+                detections: &self.detections,
+                ..Sensors::default()
+            },
             fleet: &[RobotId(0)],
             way_points: &[],
             obstacles: &self.known,
