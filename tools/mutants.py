@@ -10,6 +10,9 @@ tracked sources are copied into a folder under the target folder, and only the c
 where it was stopped, unless sources have changed; `--keep` keeps results even so. `--write` puts the table into
 docs/reference/testing.md. A run that goes wrong is done again without the bug: if it goes wrong all the same it does not
 count, and the campaign says so and fails at its end, since then the fault is in the sources themselves.
+
+A bug that no run with faults has caught in its time meets the tests of its crate. What only these catch is counted
+apart: a test of one case shows that the bug would be noticed, and not that the workloads find such bugs.
 """
 
 import argparse
@@ -28,7 +31,8 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")).resolve() / "mutants"
 COPY = TARGET / "sources"
-STARL = TARGET / "build" / "release" / "starl"
+BUILD = TARGET / "build"
+STARL = BUILD / "release" / "starl"
 PAGE = ROOT / "docs" / "reference" / "testing.md"
 VARIABLE = "STARL_PLANTED"
 
@@ -75,14 +79,20 @@ def read_mutants():
         mutant["number"] = number
         mutant["right"], mutant["wrong"] = mutant["right"].strip("\n"), mutant["wrong"].strip("\n")
         mutant["start"] = place_of(mutant, text)
-        folders = [folder for folder in listed["workloads"] if mutant["file"].startswith(folder)]
-        usual = listed["workloads"][max(folders, key=len)] if folders else []
+        usual = of_folder(listed["workloads"], mutant)
+        mutant["tests"] = of_folder(listed["tests"], mutant)
         commands = mutant.get("caught_by", usual) or fail(f"{name}: it has no workload")
         mutant["commands"] = [command_of(name, known, command) for command in commands]
     names = [mutant["name"] for mutant in mutants]
     if len(set(names)) < len(names):
         fail(f"two bugs have the same name: {next(name for name in names if names.count(name) > 1)}")
     return mutants
+
+
+def of_folder(listed, mutant):
+    """What is listed for the innermost folder of a bug's file; nothing if there is none."""
+    folders = [folder for folder in listed if mutant["file"].startswith(folder)]
+    return listed[max(folders, key=len)] if folders else []
 
 
 def place_of(mutant, text):
@@ -141,6 +151,9 @@ def copy_sources(mutants):
             content = planted(content.decode(), here).encode()
         if name == "crates/starl-core/src/lib.rs":
             content += PLANTED.encode()
+        if name == "Cargo.toml":
+            # Planted bugs are no clean code. Without other flags what cargo built of the sources serves the copy too.
+            content = re.sub(rb"(?ms)^\[workspace\.lints\.(\w+)\]\n.*?(?=^\[)", rb"[workspace.lints.\1]\n\n", content)
         kept.add(copy)
         if not copy.exists() or copy.read_bytes() != content:
             copy.parent.mkdir(parents=True, exist_ok=True)
@@ -152,21 +165,36 @@ def copy_sources(mutants):
 
 
 def build():
-    """The command with all bugs in it."""
-    environment = os.environ | {
-        "CARGO_TARGET_DIR": str(STARL.parent.parent),
-        "CARGO_PROFILE_RELEASE_DEBUG": "false",
-        "RUSTFLAGS": "--cap-lints allow",
-    }
-    command = ["cargo", "build", "--release", "--locked", "--quiet"]
-    if subprocess.run(command, cwd=COPY, env=environment).returncode:
+    """Builds the command with all bugs in it."""
+    if cargo("build", "--release", "--locked", "--quiet").returncode:
         sys.exit("the copy with the bugs in it does not build; the messages above say where")
+
+
+def build_tests(crates):
+    """The binaries of the tests of these crates, with all bugs in them, by crate."""
+    found = {}
+    for crate in crates:
+        arguments = ["--release", "--locked", "--package", crate, "--no-run", "--message-format=json"]
+        built = cargo("test", *arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        if built.returncode:
+            sys.exit(f"the tests of {crate} with the bugs in it do not build")
+        told = [json.loads(line) for line in built.stdout.splitlines() if line.startswith("{")]
+        found[crate] = [line["executable"] for line in told if line.get("profile", {}).get("test") and line["executable"]]
+    return found
+
+
+def cargo(*arguments, **options):
+    """Runs cargo on the copy."""
+    environment = os.environ | {"CARGO_TARGET_DIR": str(BUILD), "CARGO_BUILD_WARNINGS": "allow"}
+    return subprocess.run(["cargo", *arguments], cwd=COPY, env=environment, **options)
 
 
 # The campaign
 
 # Failures without any bug.
 WITHOUT_BUGS = []
+# The tests of a crate may take this long, seconds.
+LONGEST_TESTS = 600
 
 
 def core_seconds():
@@ -237,9 +265,39 @@ def attempt(mutant, seconds):
                 spent = core_seconds() - begun
                 return {"what": found[1], "by": text, "profile": profile, "runs": runs, "seconds": spent}
             plan[2] += seeds
-            if core_seconds() - before < 5:
+            if found[0] and core_seconds() - before < 5:
                 plan[3] *= 2
     return {"runs": runs, "seconds": core_seconds() - begun}
+
+
+def try_tests(mutant, binaries):
+    """The first test of the bug's crate that fails with the bug and not without it."""
+    crate = crate_of(mutant)
+    for binary in binaries.get(crate, []):
+        for test in failures(crate, binary, mutant["number"], mutant["tests"]):
+            if not failures(crate, binary, 0, ["--exact", test]):
+                return f"test {test}"
+    return None
+
+
+def failures(crate, binary, number, names):
+    """The tests of a binary with these names that fail with a bug on."""
+    environment = os.environ | {VARIABLE: str(number), "RUST_BACKTRACE": "0"}
+    command = [binary, *names]
+    pipe, folder = subprocess.PIPE, COPY / "crates" / crate
+    with subprocess.Popen(command, cwd=folder, env=environment, stdout=pipe, stderr=pipe, text=True) as process:
+        try:
+            output, _ = process.communicate(timeout=LONGEST_TESTS)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            output, _ = process.communicate()
+    ended = dict(re.findall(r"^test (\S+) \.\.\. (\w+)", output, re.MULTILINE))
+    return [test for test, result in ended.items() if result == "FAILED"]
+
+
+def crate_of(mutant):
+    """The crate of a bug's file."""
+    return pathlib.PurePath(mutant["file"]).parts[1]
 
 
 def goes_wrong_only_with_it(mutant, arguments, block, found):
@@ -279,7 +337,7 @@ def campaign(mutants, options):
         known = {"results": {}}
         try_without_bugs(mutants)
     known["sources"] = digest
-    results = known["results"]
+    results, binaries = known["results"], {}
     for mutant in mutants:
         name = mutant["name"]
         # One that survived is tried again where its workloads have changed, or it has more time.
@@ -291,6 +349,9 @@ def campaign(mutants, options):
         if is_wanted:
             print(f"{name}: ", end="", flush=True)
             results[name] = attempt(mutant, options.seconds) | {"mark": mark, "commands": commands}
+            if "what" not in results[name] and "equivalent" not in mutant:
+                binaries = binaries or build_tests({crate_of(mutant) for mutant in mutants})
+                results[name]["test"] = try_tests(mutant, binaries)
             path.write_text(json.dumps(known, indent=1), encoding="utf-8")
             print(describe(results[name]), flush=True)
     report(mutants, results, options)
@@ -304,7 +365,7 @@ def describe(result):
     """How a bug fared, in a few words."""
     spent = f"{result['runs']:,} runs, {result['seconds']:.0f} s"
     if "what" not in result:
-        return f"SURVIVES {spent}"
+        return f"{result.get('test') or 'nothing'} catches it; SURVIVES {spent}"
     where = result["by"] + (f", {result['profile']}" if result["profile"] else "")
     return f"{result['what']} ({where}) after {spent}"
 
@@ -317,6 +378,7 @@ def table(mutants, results):
         what, where = result.get("what"), result.get("by", "")
         if what is None:
             what = f"equivalent: {mutant['equivalent']}" if "equivalent" in mutant else "**survives**"
+            what, where = ("**survives runs**", result["test"]) if result.get("test") else (what, where)
         elif result["profile"]:
             where = re.sub(r" --profile \S+", "", where) + ", " + result["profile"]
         cells = [f"`{mutant['name']}`", mutant["flaw"], what.replace("|", "\\|"), where]
@@ -331,9 +393,12 @@ def report(mutants, results, options):
     left = [mutant for mutant in mutants if mutant not in caught]
     equivalent = [mutant for mutant in left if "equivalent" in mutant]
     judged = max(1, len(mutants) - len(equivalent))
+    tested = [mutant for mutant in left if results[mutant["name"]].get("test")]
+    percent = [f"{100 * count / judged:.0f} %" for count in (len(caught), len(caught) + len(tested))]
     summary = (
-        f"{len(mutants)} of {listed} bugs tried: {len(caught)} caught, {len(equivalent)} equivalent, "
-        f"{judged - len(caught)} survive; {100 * len(caught) / judged:.0f} % of those that are not equivalent"
+        f"{len(mutants)} of {listed} bugs tried, {len(equivalent)} of them equivalent. Of the other {judged}, runs with "
+        f"faults or explorations catch {len(caught)} ({percent[0]}), and with the tests of the crates "
+        f"{len(caught) + len(tested)} are caught ({percent[1]})"
     )
     text = f"{summary}.\n\n{table(mutants, results)}\n"
     (TARGET / "table.md").write_text(text, encoding="utf-8")
@@ -345,7 +410,7 @@ def report(mutants, results, options):
     print(f"\n{summary}\nthe table is in {TARGET / 'table.md'}")
     for mutant in left:
         if mutant not in equivalent:
-            print(f"SURVIVES: {mutant['name']}: {mutant['flaw']}")
+            print(f"SURVIVES{' runs' if mutant in tested else ''}: {mutant['name']}: {mutant['flaw']}")
 
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)

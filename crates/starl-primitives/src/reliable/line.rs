@@ -9,7 +9,7 @@ use starl_core::{Destination, Duration, Robot, RobotId, Time};
 /// Datagrams with several messages are not longer than this, bytes.
 pub(super) const CHUNK: usize = 1000;
 
-/// The number of datagrams that are sent again at once to a receiver that answers.
+/// The number of datagrams that are sent again at once to a receiver.
 const BURST: usize = 4;
 
 /// The greatest number of robots that are informed that they need not answer.
@@ -325,6 +325,15 @@ impl Line {
             0
         };
         self.bring_up(robot, outgoing, receiver, (peer, most), notices);
+        // A robot that is not heard may hear: each message is due a copy in each attempt.
+        let is_due = |sent: Time| sent + self.options.first_timeout <= now;
+        for _ in 0..BURST {
+            let numbers = self.resend(robot, outgoing, receiver, (peer, CHUNK), is_due);
+            if numbers.is_empty() {
+                break;
+            }
+            self.tell(&numbers, peer, notices);
+        }
         let trying = &mut receiver.trying;
         trying.attempt = trying.attempt.saturating_add(1);
         let due = now + self.stretched(robot, trying.attempt);

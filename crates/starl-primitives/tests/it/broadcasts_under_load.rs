@@ -5,7 +5,7 @@ use crate::harness::teller::{Teller, causal_violation, is_fifo, runs, sequences}
 use crate::harness::{Wire, World, int, robot};
 use starl_core::{Duration, Random, Time};
 use starl_primitives::broadcast::Order;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 const ORDERS: [Order; 3] = [Order::Unordered, Order::Fifo, Order::Causal];
 
@@ -122,6 +122,69 @@ fn a_partition_of_twenty_seconds_loses_nothing_and_its_backlog_clears_within_thr
             let missed = missed(&world, 4, from, until);
             assert_eq!(missed, [], "{order:?}, seed {seed}: healed at {healed}");
             judge(&world, order, &[], seed);
+        }
+    }
+}
+
+/// The messages of robots from `first` on, sent in this time, that a robot was not handed.
+fn missed_by(world: &World, receiver: u32, first: u32, from: Time, until: Time) -> Vec<(u32, i64)> {
+    let sent = world.events("broadcast").into_iter();
+    let sent = sent.filter(|(at, sender, _)| *at >= from && *at < until && sender.0 >= first);
+    let mut missed: BTreeSet<(u32, i64)> = sent
+        .map(|(_, sender, fields)| (sender.0, int(&fields["number"])))
+        .collect();
+    for (_, to, fields) in world.events("deliver") {
+        if to.0 == receiver {
+            missed.remove(&(robot(&fields["from"]), int(&fields["number"])));
+        }
+    }
+    missed.into_iter().collect()
+}
+
+/// Sixty messages a second wait at a robot that cannot ask for the one that they depend on: two thousand in all.
+#[test]
+fn a_robot_that_is_not_heard_for_twenty_seconds_misses_no_causal_message() {
+    for seed in 0..3 {
+        let wire = Wire {
+            loss: 0.1,
+            delay_ms: (5, 40),
+            ..Wire::perfect()
+        };
+        let mut world = fleet(Order::Causal, 7, seed, wire, 600, 100);
+        world.run_for(Duration::from_seconds(5));
+        world.wire.cut.extend((1..7).map(|to| (0, to)));
+        // Robot 0 does not come to hear the later lives of this one, of which the others speak.
+        for _ in 0..10 {
+            world.crash(1);
+            world.run_for(Duration::from_millis(100));
+            world.start(1);
+            world.run_for(Duration::from_millis(1900));
+        }
+        world.wire.cut.clear();
+        world.run_for(Duration::from_seconds(30));
+        let until = world.now - Duration::from_seconds(3);
+        let missed = missed_by(&world, 0, 2, Time::ZERO, until);
+        assert_eq!(missed, [], "seed {seed}");
+    }
+}
+
+#[test]
+fn messages_to_a_robot_that_is_never_heard_again_arrive_before_they_are_given_up() {
+    for order in ORDERS {
+        for seed in 0..4 {
+            let wire = Wire {
+                loss: 0.2,
+                delay_ms: (5, 40),
+                ..Wire::perfect()
+            };
+            let mut world = fleet(order, 3, seed, wire, 160, 400);
+            world.run_for(Duration::from_seconds(4));
+            world.wire.cut.extend([(0, 2), (1, 2)]);
+            let from = world.now;
+            world.run_for(Duration::from_seconds(60));
+            let until = world.now - Duration::from_seconds(28);
+            let missed = missed_by(&world, 1, 2, from, until);
+            assert_eq!(missed, [], "{order:?}, seed {seed}");
         }
     }
 }

@@ -7,7 +7,8 @@
 //!
 //! Ours differs because this is a register: reads change nothing, so they are not ordered. Each configuration contains,
 //! for every current read, the values since its begin. Concurrent writes that only such reads can see may take effect
-//! in any order.
+//! in any order. A write that will not end takes effect only when a read shows it: now, or just before the last write that
+//! took effect.
 //!
 //! An update replaces one value by another, and can take effect only while the register has the first. Then the order
 //! matters, so once a register was updated all orders of the current operations are tried. These are few, because an
@@ -49,26 +50,41 @@ struct Configuration {
     effective: BTreeSet<Id>,
     /// For each read under way what it may give.
     possible: BTreeMap<Id, BTreeSet<Content>>,
+    /// When a write last took effect, while reads are under way.
+    changed: Moment,
+}
+
+/// Counts what has happened.
+type Moment = u64;
+
+/// A write under way.
+#[derive(Clone, Copy, Debug)]
+struct Write {
+    value: i64,
+    begun: Moment,
+    /// Whether its end is not to come.
+    is_abandoned: bool,
 }
 
 /// A history of one register.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
     configurations: BTreeSet<Configuration>,
-    /// The writes under way, and whether their end is not to come.
-    writes: BTreeMap<Id, (i64, bool)>,
+    now: Moment,
+    writes: BTreeMap<Id, Write>,
     /// Which of these are updates, and of what; those that will not end stay here as long as there.
     updated: BTreeMap<Id, Content>,
     /// Whether there has ever been an update.
     has_updates: bool,
-    /// The reads under way.
-    reads: BTreeSet<Id>,
+    /// The reads under way, and when they began.
+    reads: BTreeMap<Id, Moment>,
     verdict: Verdict,
 }
 
 impl Configuration {
-    fn become_(&mut self, value: i64) {
+    fn become_(&mut self, value: i64, now: Moment) {
         self.content = Content::Value(value);
+        self.changed = now;
         for possible in self.possible.values_mut() {
             possible.insert(self.content);
         }
@@ -89,13 +105,15 @@ impl Search {
             content,
             effective: BTreeSet::new(),
             possible: BTreeMap::new(),
+            changed: 0,
         };
         Search {
             configurations: BTreeSet::from([first]),
+            now: 0,
             writes: BTreeMap::new(),
             updated: BTreeMap::new(),
             has_updates: false,
-            reads: BTreeSet::new(),
+            reads: BTreeMap::new(),
             verdict: Verdict::Possible,
         }
     }
@@ -106,7 +124,13 @@ impl Search {
     }
 
     pub fn write_begins(&mut self, id: Id, value: i64) {
-        self.writes.insert(id, (value, false));
+        self.now += 1;
+        let write = Write {
+            value,
+            begun: self.now,
+            is_abandoned: false,
+        };
+        self.writes.insert(id, write);
     }
 
     /// An update begins, which replaces the value that was found.
@@ -126,7 +150,8 @@ impl Search {
     }
 
     pub fn read_begins(&mut self, id: Id) {
-        self.reads.insert(id);
+        self.now += 1;
+        self.reads.insert(id, self.now);
         let configurations = core::mem::take(&mut self.configurations);
         let with_read = configurations.into_iter().map(|mut configuration| {
             let now = BTreeSet::from([configuration.content]);
@@ -139,10 +164,10 @@ impl Search {
     /// The operation will not end: its robot has crashed, or has withdrawn it. A write may still take
     /// effect.
     pub fn is_abandoned(&mut self, id: Id) {
-        if let Some((_, is_abandoned)) = self.writes.get_mut(&id) {
-            *is_abandoned = true;
+        if let Some(write) = self.writes.get_mut(&id) {
+            write.is_abandoned = true;
         }
-        if self.reads.remove(&id) {
+        if self.reads.remove(&id).is_some() {
             let configurations = core::mem::take(&mut self.configurations);
             let without = configurations.into_iter().map(|mut configuration| {
                 configuration.possible.remove(&id);
@@ -159,7 +184,8 @@ impl Search {
             self.updated.remove(&id);
             return self.keep_if_known(next);
         }
-        let Some((value, _)) = self.writes.remove(&id) else {
+        self.now += 1;
+        let Some(Write { value, .. }) = self.writes.remove(&id) else {
             return;
         };
         let mut next = BTreeSet::new();
@@ -174,9 +200,10 @@ impl Search {
     }
 
     pub fn read_ends(&mut self, id: Id, result: Content) {
-        if !self.reads.remove(&id) {
+        let Some(begun) = self.reads.remove(&id) else {
             return;
-        }
+        };
+        self.now += 1;
         if self.has_updates {
             let next = self.after_any(|configuration| {
                 let possible = configuration.possible.remove(&id);
@@ -191,15 +218,26 @@ impl Search {
                 next.insert(configuration);
                 continue;
             }
-            let can_take_effect = |(id, (value, _)): (&Id, &(i64, bool))| {
-                let is_it = Content::Value(*value) == result;
-                (is_it && !configuration.effective.contains(id)).then_some((*id, *value))
+            let can_take_effect = |(id, write): (&Id, &Write)| {
+                let is_it = Content::Value(write.value) == result;
+                (is_it && !configuration.effective.contains(id)).then_some((*id, *write))
             };
             let candidates = self.writes.iter().filter_map(can_take_effect);
-            let candidates: Vec<(Id, i64)> = candidates.collect();
-            for (write, value) in candidates {
+            let candidates: Vec<(Id, Write)> = candidates.collect();
+            for (
+                write,
+                Write {
+                    value,
+                    begun: written,
+                    is_abandoned,
+                },
+            ) in candidates
+            {
                 let mut effective = configuration.clone();
                 effective.effective.insert(write);
+                if is_abandoned && configuration.changed > begun.max(written) {
+                    next.insert(self.with_overwritten(effective.clone(), value));
+                }
                 if !self.with_earlier(&effective, value, &mut next) {
                     return;
                 }
@@ -217,13 +255,13 @@ impl Search {
         let mut found = core::mem::take(&mut self.configurations);
         let mut left: Vec<Configuration> = found.iter().cloned().collect();
         while let Some(configuration) = left.pop() {
-            for (id, &(value, _)) in &self.writes {
+            for (id, &Write { value, .. }) in &self.writes {
                 let finds = self.updated.get(id);
                 let can = finds.is_none_or(|finds| *finds == configuration.content);
                 if can && !configuration.effective.contains(id) {
                     let mut then = configuration.clone();
                     then.effective.insert(*id);
-                    then.become_(value);
+                    then.become_(value, 0);
                     if found.insert(then.clone()) {
                         left.push(then);
                     }
@@ -247,6 +285,20 @@ impl Search {
         }
     }
 
+    /// A write took effect just before the last one, and only reads that were under way then may have seen it.
+    fn with_overwritten(&self, mut configuration: Configuration, value: i64) -> Configuration {
+        for (read, possible) in &mut configuration.possible {
+            if self
+                .reads
+                .get(read)
+                .is_some_and(|&begun| begun < configuration.changed)
+            {
+                possible.insert(Content::Value(value));
+            }
+        }
+        configuration
+    }
+
     /// A write takes effect, after any others of those that are under way. Whether it is not too much.
     fn with_earlier(
         &mut self,
@@ -255,10 +307,11 @@ impl Search {
         next: &mut BTreeSet<Configuration>,
     ) -> bool {
         // Operations that will not end need no place in the order, unless their effect is seen.
-        let others = self.writes.iter().filter(|(id, (_, is_abandoned))| {
-            !is_abandoned && !configuration.effective.contains(id)
-        });
-        let others: Vec<(Id, i64)> = others.map(|(&id, &(value, _))| (id, value)).collect();
+        let others = self
+            .writes
+            .iter()
+            .filter(|(id, write)| !write.is_abandoned && !configuration.effective.contains(id));
+        let others: Vec<(Id, i64)> = others.map(|(&id, write)| (id, write.value)).collect();
         let is_few = others.len() < MOST_CONFIGURATIONS.ilog2() as usize;
         let subsets = if is_few { 1_u32 << others.len() } else { 0 };
         for subset in 0..subsets {
@@ -266,10 +319,10 @@ impl Search {
             for (index, &(id, value)) in others.iter().enumerate() {
                 if subset >> index & 1 == 1 {
                     then.effective.insert(id);
-                    then.become_(value);
+                    then.become_(value, self.now);
                 }
             }
-            then.become_(value);
+            then.become_(value, self.now);
             next.insert(then);
         }
         let is_enough = is_few && next.len() <= MOST_CONFIGURATIONS;
@@ -293,12 +346,15 @@ impl Search {
         let done = self
             .writes
             .iter()
-            .filter(|(id, (_, abandoned))| *abandoned && is_effective(id));
+            .filter(|(id, write)| write.is_abandoned && is_effective(id));
         let done: BTreeSet<Id> = done.map(|(&id, _)| id).collect();
         self.writes.retain(|id, _| !done.contains(id));
         self.updated.retain(|id, _| !done.contains(id));
         let lean = next.into_iter().map(|mut configuration| {
             configuration.effective.retain(|id| !done.contains(id));
+            if self.reads.is_empty() {
+                configuration.changed = 0;
+            }
             configuration
         });
         self.configurations = lean.collect();
@@ -315,6 +371,8 @@ mod tests {
     struct Operation {
         begin: u32,
         end: Option<u32>,
+        /// When it is known that it will not end.
+        abandoned: Option<u32>,
         is_write: bool,
         /// The value that an update finds.
         found: Option<i64>,
@@ -323,16 +381,17 @@ mod tests {
 
     fn judge(history: &[Operation]) -> Verdict {
         let mut search = Search::default();
-        let begins = history
-            .iter()
-            .enumerate()
-            .map(|(id, o)| (o.begin, id, true));
-        let ends = history.iter().enumerate();
-        let ends = ends.filter_map(|(id, o)| Some((o.end?, id, false)));
+        let all = || history.iter().enumerate();
+        let begins = all().map(|(id, o)| (o.begin, id, true));
+        let ends = all().filter_map(|(id, o)| Some((o.end.or(o.abandoned)?, id, false)));
         let mut events: Vec<(u32, usize, bool)> = begins.chain(ends).collect();
         events.sort_unstable();
         for (_, id, is_begin) in events {
             let operation = history[id];
+            if !is_begin && operation.end.is_none() {
+                search.is_abandoned(id as Id);
+                continue;
+            }
             let content = |value: i64| match value {
                 0 => Content::Nothing,
                 value => Content::Value(value),
@@ -390,10 +449,14 @@ mod tests {
                 .map(|pair| {
                     let is_write = random.chance(0.5);
                     let is_update = has_updates && is_write && random.chance(0.7);
+                    let (begin, end) = (pair[0].min(pair[1]), pair[0].max(pair[1]));
+                    let ends = random.chance(0.75);
+                    let is_abandoned = !ends && random.chance(0.7);
                     Operation {
                         found: is_update.then(|| i64::from(random.below(3))),
-                        begin: pair[0].min(pair[1]),
-                        end: random.chance(0.85).then(|| pair[0].max(pair[1])),
+                        begin,
+                        end: ends.then_some(end),
+                        abandoned: is_abandoned.then_some(end),
                         is_write,
                         // Values occur more than once.
                         value: i64::from(random.below(3) + u32::from(is_write)),
@@ -412,6 +475,27 @@ mod tests {
             }) += 1;
         }
         assert!(good > 6000 && bad > 6000, "{good} good, {bad} bad");
+    }
+
+    #[test]
+    fn a_read_may_show_the_write_of_a_crashed_robot_that_another_write_has_overwritten() {
+        let mut search = Search::default();
+        search.write_begins(0, 1);
+        search.write_begins(1, 2);
+        search.read_begins(2);
+        search.is_abandoned(0);
+        search.write_ends(1);
+        search.read_ends(2, Content::Value(1));
+        search.read_begins(3);
+        search.read_ends(3, Content::Value(2));
+        assert_eq!(search.verdict(), Verdict::Possible);
+        search.read_begins(4);
+        search.read_ends(4, Content::Value(1));
+        assert_eq!(
+            search.verdict(),
+            Verdict::Impossible,
+            "it cannot take effect twice"
+        );
     }
 
     #[test]

@@ -40,7 +40,7 @@ const LEAST_LOOKS: u32 = 8;
 const LONGEST_SILENCE: u32 = 40;
 
 /// Messages are held back up to this number; with more, the oldest waits no longer.
-const MOST_HELD: usize = 1024;
+const MOST_HELD: usize = 32_768;
 
 /// Counts looks; it may wrap around.
 type Look = u32;
@@ -59,7 +59,7 @@ pub(super) struct Causal {
     suspects: BTreeSet<RobotId>,
     /// Counts looks.
     looks: Look,
-    /// That count when each sender was last heard.
+    /// That count when a datagram of each robot last came.
     heard: BTreeMap<RobotId, Look>,
     /// The last question to each robot.
     doubts: BTreeMap<RobotId, Doubt>,
@@ -112,14 +112,17 @@ impl Causal {
                 self.suspects.remove(peer);
             }
             Input::Timer(key) if *key == self.timer() => return self.look(robot),
+            // A robot is there too if what it sends waits below, in FIFO order, for a message that was lost.
+            Input::Message(message)
+                if message.port == self.channel.port && robot.fleet().contains(&message.from) =>
+            {
+                self.heard.insert(message.from, self.looks);
+            }
             _ => {}
         }
         for notice in self.channel.hear(robot, input) {
             match notice {
-                Notice::Arrived(arrival) => {
-                    self.heard.insert(arrival.from, self.looks);
-                    self.arrive(robot, arrival);
-                }
+                Notice::Arrived(arrival) => self.arrive(robot, arrival),
                 Notice::Settled {
                     from,
                     incarnation,
@@ -127,7 +130,6 @@ impl Causal {
                     next,
                     ticket,
                 } => {
-                    self.heard.insert(from, self.looks);
                     self.answered(&Answer {
                         process: Process {
                             robot: from,
