@@ -88,7 +88,7 @@ fn a_file_that_changes_on_disk_counts_once_the_editor_says_so() {
 }
 
 #[test]
-fn uses_of_a_librarys_declarations_are_found_in_all_programs() {
+fn uses_of_declarations_in_a_library_are_found_in_all_programs() {
     let mut place = place("lsp_uses");
     let (program, tools) = (name_of(&place.program), name_of(&place.tools));
     place.editor.open(&tools, TOOLS);

@@ -93,7 +93,7 @@ fn of_roles_as_values() {
 }
 
 #[test]
-fn of_a_librarys_declaration() {
+fn of_a_declaration_in_a_library() {
     let (text, at) =
         cursor("program P\nimport tools\nx: tools.Pair\ny: Int = tools.tw$0ice(a = 2)\n");
     let tools = "library tools\nrecord Pair {left: Int, right: Int}\nfunction twice(a: Int) -> Int = a + a\nfunction four() -> Int = twice(2)\n";

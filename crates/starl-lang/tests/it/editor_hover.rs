@@ -193,7 +193,7 @@ fn of_built_in_names_the_tables_text() {
 }
 
 #[test]
-fn of_a_librarys_declarations() {
+fn of_declarations_in_a_library() {
     let (signature, documentation) = shown("geometry.midpoint", "midpoint");
     assert_eq!(signature, "function midpoint(a: Point, b: Point) -> Point");
     assert!(documentation.contains("half-way"), "{documentation}");
