@@ -2,11 +2,12 @@
 
     target/venv/bin/python tools/portability.py STARL FOLDER [EXAMPLE...]
 
-STARL must be built with the feature `zenoh`. FOLDER receives the fleets' files and traces. Real time passes: all examples
+With EXAMPLE only these rows change. STARL must be built with the feature `zenoh`. FOLDER receives the fleets' files and traces. Real time passes: all examples
 take about a quarter of an hour, several of them at once. Traffic stays on this machine.
 """
 
 import concurrent.futures
+import itertools
 import json
 import pathlib
 import socket
@@ -22,11 +23,12 @@ PAGE = ROOT / "docs/reference/portability.md"
 MARK = "<!-- tools/portability.py writes what follows -->\n"
 # Examples with more robots than this are too many processes for one small machine.
 MOST_ROBOTS = 10
-# How many fleets run at once, and how long one may take, in seconds.
+# How many fleets run at once.
 AT_ONCE = 2
-PATIENCE = 200
-# Programs without an end of their own run for so long.
-LONGEST = "100s"
+# A fleet has at least this time, and one and a half times as long as the simulator's run, in seconds.
+SHORTEST = 100
+# A fleet that has not ended this long after its time is stopped, in seconds.
+PATIENCE = 100
 # Where the ways of robots are compared with those in the simulator.
 COMPARED = ["UDP", "Create and AR.Drone", "Crazyflie", "MAVLink", "ROS 2"]
 DIFFERENCES = """
@@ -95,7 +97,7 @@ def devices(robots, platform, ports):
     return text if named else None
 
 
-def run_real(starl, folder, example, robots, platform, ports):
+def run_real(starl, folder, example, robots, seconds, platform, ports):
     """The result of one example on one real platform."""
     if len(robots) > MOST_ROBOTS:
         return f"not tried: {len(robots)} robots"
@@ -111,11 +113,11 @@ def run_real(starl, folder, example, robots, platform, ports):
         text += tables
         arguments = ["--emulate"]
     (place / "fleet.toml").write_text(text)
-    command = [starl, "fleet", "up", "fleet.toml", "--quiet", "--duration", LONGEST, *arguments]
+    command = [starl, "fleet", "up", "fleet.toml", "--quiet", "--duration", f"{seconds}s", *arguments]
     try:
-        done = subprocess.run(command, cwd=place, capture_output=True, text=True, timeout=PATIENCE)
+        done = subprocess.run(command, cwd=place, capture_output=True, text=True, timeout=seconds + PATIENCE)
     except subprocess.TimeoutExpired:
-        return f"did not end within {PATIENCE} s"
+        return f"did not end within {seconds + PATIENCE} s"
     (place / "output.txt").write_text(done.stdout + done.stderr)
     if done.returncode == 0:
         return "passes"
@@ -166,6 +168,16 @@ def compared(folder, name, platform):
     return f"{deviation(folder / name / 'simulated.mcap', merged):.2f} m" if merged.exists() else ""
 
 
+def renewed(page, rows):
+    """Rows with a heading, with the rows of other examples as they are in the table with this heading on the page."""
+    heading = f"| {' | '.join(rows[0])} |"
+    lines = page.partition(heading + "\n")[2].splitlines()[1:]
+    old = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in itertools.takewhile(str.strip, lines)]
+    new = {row[0]: row for row in rows[1:]}
+    kept = [new.pop(row[0], row) for row in old]
+    return [rows[0], *kept, *new.values()]
+
+
 def table(rows):
     lines = [" | ".join(row) for row in rows]
     lines.insert(1, " | ".join(["---"] * len(rows[0])))
@@ -185,8 +197,9 @@ def main():
             report = json.loads(subprocess.run(command, capture_output=True, text=True).stdout)
             results[name, "simulator"] = "passes" if report["outcome"] == "reached" else report["outcome"]
             robots = [(robot["name"], robot["model"]) for robot in report["robots"]]
+            seconds = max(SHORTEST, round(1.5 * report["sim_seconds"]))
             for platform in PLATFORMS[1:]:
-                job = pool.submit(run_real, starl, folder, name, robots, platform, ports)
+                job = pool.submit(run_real, starl, folder, name, robots, seconds, platform, ports)
                 waiting[job] = (name, platform)
         for job in concurrent.futures.as_completed(waiting):
             results[waiting[job]] = job.result()
@@ -196,7 +209,10 @@ def main():
     compare = [["example", *COMPARED]]
     compare += [[f"`{name}`", *(compared(folder, name, platform) for platform in COMPARED)] for name in names]
     compare = [row for row in compare if any(row[1:])]
-    head, _, _ = PAGE.read_text().partition(MARK)
+    page = PAGE.read_text()
+    if sys.argv[3:]:
+        rows, compare = renewed(page, rows), renewed(page, compare)
+    head, _, _ = page.partition(MARK)
     PAGE.write_text(head + MARK + "\n" + table(rows) + DIFFERENCES + table(compare))
 
 
