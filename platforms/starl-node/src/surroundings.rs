@@ -257,7 +257,10 @@ mod tests {
     fn a_detector_shows_robots_and_things_in_range_nearest_first() {
         let mut surroundings = surroundings(None);
         let lamp = (Detected::Thing(0), -1.0);
-        assert_eq!(detected(&mut surroundings, ms(0)), [lamp.clone()]);
+        assert_eq!(
+            detected(&mut surroundings, ms(0)),
+            std::slice::from_ref(&lamp)
+        );
         surroundings.hear(RobotId(1), ms(10), place(2.0), Point::ZERO);
         surroundings.hear(RobotId(2), ms(10), place(3.5), Point::ZERO);
         let robot = (Detected::Robot(RobotId(1)), 2.0);

@@ -117,9 +117,9 @@ fn a_program_that_acts_on_a_jump_of_the_position_has_the_jump_on_record() {
         .iter()
         .position(|(_, event)| *event == Event::Finished);
     let before = &records[..finished.expect("it is there")];
-    let moves = before.iter().filter_map(|(_, event)| match event {
+    let mut moves = before.iter().filter_map(|(_, event)| match event {
         Event::Moved(pose) => Some(pose.position.x),
         _ => None,
     });
-    assert_eq!(moves.last(), Some(1.0));
+    assert_eq!(moves.next_back(), Some(1.0));
 }
