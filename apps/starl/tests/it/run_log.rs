@@ -73,7 +73,10 @@ fn an_unknown_robot_is_refused() {
     let (status, text) = shown("log_unknown", &["--log", "--log-robots", "create7"]);
     assert_eq!(
         (status, text.as_str()),
-        (2, "error: --log-robots: there is no robot create7; did you mean `create0`?\n")
+        (
+            2,
+            "error: --log-robots: there is no robot create7; did you mean `create0`?\n"
+        )
     );
     assert_eq!(shown("log_alone", &["--log-robots", "create0"]).0, 2);
     assert_eq!(shown("log_level", &["--log=loud"]).0, 2);
