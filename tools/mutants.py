@@ -26,6 +26,7 @@ import shlex
 import signal
 import subprocess
 import sys
+import textwrap
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -214,7 +215,7 @@ def run(number, arguments, seconds):
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGINT)  # it tells what it has found until now
             try:
-                output, errors = process.communicate(timeout=30)
+                output, errors = process.communicate(timeout=120)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.communicate()
@@ -400,7 +401,7 @@ def report(mutants, results, options):
         f"faults or explorations catch {len(caught)} ({percent[0]}), and with the tests of the crates "
         f"{len(caught) + len(tested)} are caught ({percent[1]})"
     )
-    text = f"{summary}.\n\n{table(mutants, results)}\n"
+    text = f"{textwrap.fill(summary, 120)}.\n\n{table(mutants, results)}\n"
     (TARGET / "table.md").write_text(text, encoding="utf-8")
     if options.write:
         page = PAGE.read_text(encoding="utf-8")
