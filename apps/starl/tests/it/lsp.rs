@@ -188,19 +188,30 @@ fn completions_are_suggested() {
         .collect();
     let expected = [
         "active",
+        "along",
         "done",
+        "drive_lane",
         "failed",
         "follow",
+        "free",
         "reach_avoid",
         "reason",
+        "stood",
         "stop",
         "target",
     ];
     assert_eq!(labels, expected);
-    assert_eq!(items[4]["textEdit"]["newText"], "reach_avoid($0)");
-    assert_eq!(items[4]["insertTextFormat"], 2);
-    assert_eq!(items[6]["textEdit"]["newText"], "stop()");
-    assert_eq!(items[0]["detail"], "ReachAvoid.active: Bool");
+    let item = |label: &str| {
+        let index = labels.iter().position(|found| *found == label);
+        &items[index.expect("it is suggested")]
+    };
+    assert_eq!(
+        item("reach_avoid")["textEdit"]["newText"],
+        "reach_avoid($0)"
+    );
+    assert_eq!(item("reach_avoid")["insertTextFormat"], 2);
+    assert_eq!(item("stop")["textEdit"]["newText"], "stop()");
+    assert_eq!(item("active")["detail"], "ReachAvoid.active: Bool");
 }
 
 #[test]
