@@ -66,14 +66,16 @@ fn create_1_conforms() {
     conforms(Generation::Create1);
 }
 
-/// Drives straight until `done`, for 5 s at most.
+/// Drives straight until `done`, for 10 s at most. On a busy machine the robot may be silent for a while meanwhile.
 fn drive(driver: &mut Create, mut done: impl FnMut(&Reading) -> bool) -> bool {
-    let limit = Instant::now() + Duration::from_secs(5);
+    let limit = Instant::now() + Duration::from_secs(10);
     let straight = Command::Straight { speed: 0.4 };
     while Instant::now() < limit {
         let _ = driver.drive(&straight, &Estimate::default());
         sleep(Duration::from_millis(30));
-        if driver.read().unwrap().is_some_and(|reading| done(&reading)) {
+        if let Ok(Some(reading)) = driver.read()
+            && done(&reading)
+        {
             return true;
         }
     }
