@@ -199,7 +199,7 @@ fn wrong_expressions_are_refused_at_their_places() {
         (
             "1.0 + touched",
             "1.0 + touched",
-            "`+` does not join Float and Bool",
+            "`+` does not apply to Float and Bool",
         ),
         (
             "if finished then 1.0 else 0.0",

@@ -104,7 +104,7 @@ fn register_with_a_writer_and_a_reader() {
     let operations = [Some(Operation::Write), Some(Operation::Read), None];
     assert_eq!(
         all_is_well(register(operations), REGISTER_IS_UP),
-        (27_238, 259_915, 19)
+        (27_802, 264_349, 19)
     );
 }
 

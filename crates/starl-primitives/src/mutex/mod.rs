@@ -18,7 +18,7 @@
 //! The resources of a crashed robot stay locked until it is up again, when it holds nothing; with leases
 //! until its lease ends.
 //!
-//! Resources that are [`places`] are kept apart by sight too: [`Mutex::with_places`].
+//! Resources that are places are kept apart by sight too: [`Mutex::with_places`].
 //!
 //! After a corruption of its state a robot may believe that it holds a resource of another robot, until it releases it.
 //! From then on all guarantees hold again.
