@@ -129,5 +129,8 @@ fn garbage_ends_a_connection_and_no_other() {
     let (mut stream, _) = fake.accept().unwrap();
     stream.write_all(b"HTTP/1.1 400 Bad Request\r\n").unwrap();
     let error = wait(&mut fooled, Result::err);
-    assert!(error.to_string().contains("does not send VRPN 7"), "{error}");
+    assert!(
+        error.to_string().contains("does not send VRPN 7"),
+        "{error}"
+    );
 }

@@ -206,7 +206,7 @@ fn wrong_expressions_are_refused_at_their_places() {
             "finished",
             "an environment does not know `finished`",
         ),
-        ("ranges[0]", "ranges", "a task cannot ask for `ranges`"),
+        ("ranges[0]", "ranges", "a task cannot use `ranges`"),
         ("random(0.0, 1.0)", "random", "a task cannot call `random`"),
     ] {
         let error = Fleet::new(1, &reward(expression)).err().expect("an error");

@@ -30,8 +30,8 @@ fn delivery_far_from_the_area_is_reported_once() {
     assert_only(&verdict, "geocast.exclusion", 1550, &[1, 0]);
     assert_eq!(
         verdict[0].text,
-        "robot 1 delivered message 1 that robot 0 geocast at 1.000s, but had come no nearer to its \
-         area than 2.000 m since"
+        "robot 1 delivered message 1 that robot 0 geocast at 1.000s, but had stayed at least 2.000 m \
+         away from its area since"
     );
 }
 
