@@ -26,7 +26,7 @@ def read(emulator, port, version):
         time.sleep(1)
         client.stop_async()
     numbers = {body.name: body.id_num for body in descriptions[0].rigid_bodies}
-    assert set(numbers) == {"create", "drone", "px4", "ardupilot", "crazyflie"}, numbers
+    assert set(numbers) == {"create", "drone", "px4", "ardupilot", "crazyflie", "twist", "stamped"}, numbers
     print(f"NatNet {version}: {len(frames)} frames in a second")
     assert 60 < len(frames) < 130
     order = [frame.prefix.frame_number for frame in frames]

@@ -21,7 +21,7 @@ def main():
         while len(bodies) < 4 and time.time() < end:
             cameras.waitForNextFrame()
             bodies = dict(cameras.rigidBodies)
-        assert set(bodies) == {"create", "drone", "px4", "ardupilot", "crazyflie"}, bodies
+        assert set(bodies) == {"create", "drone", "px4", "ardupilot", "crazyflie", "twist", "stamped"}, bodies
         for name, body in bodies.items():
             x, y, z, yaw = emulator.pose(name)
             assert math.dist(body.position, (x, y, z)) < 1e-5, (name, body.position, (x, y, z))
