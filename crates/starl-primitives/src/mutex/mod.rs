@@ -123,7 +123,8 @@ impl Mutex {
     /// participants are asked. An empty set needs no request and counts as held.
     ///
     /// With places the request lasts until it is withdrawn: it is made when no robot stands in them, and made again
-    /// whenever the robot has given way. Other resources that the robot holds are given back.
+    /// whenever the robot has given way. Other resources that the robot holds are given back. The participants are
+    /// always the last ones that were set, so set them as long as the robot may have to give way.
     ///
     /// # Errors
     /// If the robot holds something, and the resources are not places.
