@@ -51,6 +51,21 @@ impl Default for SensorSuite {
     }
 }
 
+impl Default for Proximity {
+    fn default() -> Proximity {
+        Proximity {
+            rays: 24,
+            range: 0.1,
+        }
+    }
+}
+
+impl Default for Detector {
+    fn default() -> Detector {
+        Detector { range: 0.6 }
+    }
+}
+
 /// Room for readings, used over and over.
 #[derive(Clone, Debug, Default)]
 pub struct Readings {

@@ -7,6 +7,7 @@
 
 pub mod cause;
 pub mod engine;
+mod fields;
 pub mod profile;
 pub mod read;
 pub mod run;

@@ -2,6 +2,7 @@
 
 use super::names::Names;
 use super::report::{Origin, Report};
+use super::schema::KNOB_NAMES;
 use super::section::Section;
 use super::{fault, obstacle, order, start};
 use crate::scenario::{Joins, Moment, Network, Occasion, ScenarioEvent};
@@ -85,21 +86,6 @@ fn check_changes(mut changes: Vec<Change>, network: &Network, report: &Report) {
 /// Names of fields.
 type Fields = &'static [&'static str];
 
-const KNOBS: Fields = &[
-    "delay",
-    "jitter",
-    "distribution",
-    "loss",
-    "duplication",
-    "reordering",
-    "reordering_delay",
-    "range",
-    "line_of_sight",
-    "bandwidth",
-    "queue",
-    "largest",
-];
-
 /// The fields that a kind of event needs, and those that it may have.
 fn fields(kind: &str) -> (Fields, Fields) {
     if let Some(fields) = fault::fields(kind) {
@@ -107,7 +93,7 @@ fn fields(kind: &str) -> (Fields, Fields) {
     }
     match kind {
         "push" => (&["robot", "by"], &[]),
-        "network" => (&[], KNOBS),
+        "network" => (&[], KNOB_NAMES),
         "add_obstacle" => (
             &[],
             &["polygon", "circle", "rectangle", "box", "height", "hidden"],
@@ -266,29 +252,8 @@ fn what(table: Section<'_>, names: &Names, kind: &str) -> Option<Intervention> {
 
 /// The changes of the network that are written.
 fn knobs(table: Section<'_>) -> Option<Vec<NetworkKnob>> {
-    let mut knobs = Vec::new();
-    let number = |name| table.optional_number(name);
-    let span = |name| table.optional_duration(name);
-    knobs.extend(span("delay").map(NetworkKnob::Delay));
-    knobs.extend(span("jitter").map(NetworkKnob::Jitter));
-    knobs.extend(super::network::distribution(table).map(NetworkKnob::Distribution));
-    knobs.extend(number("loss").map(NetworkKnob::Loss));
-    knobs.extend(number("duplication").map(NetworkKnob::Duplication));
-    knobs.extend(number("reordering").map(NetworkKnob::Reordering));
-    knobs.extend(span("reordering_delay").map(NetworkKnob::ReorderingDelay));
-    if table.is_written("range") {
-        knobs.push(NetworkKnob::Range(number("range")));
-    }
-    if table.has("line_of_sight") {
-        knobs.push(NetworkKnob::LineOfSight(table.flag("line_of_sight")));
-    }
-    if table.is_written("bandwidth") {
-        knobs.push(NetworkKnob::Bandwidth(number("bandwidth")));
-    }
-    knobs.extend(span("queue").map(NetworkKnob::Queue));
-    let largest = table.count("largest");
-    knobs.extend(largest.map(|bytes| NetworkKnob::Largest(bytes as u32)));
-    if !KNOBS.iter().any(|name| table.is_written(name)) {
+    let knobs = Network::read_knobs(table);
+    if !KNOB_NAMES.iter().any(|name| table.is_written(name)) {
         let (message, help) = (
             "the event changes nothing of the network",
             "give `loss`, `delay` or any other field of [network] but `link`",

@@ -3,6 +3,7 @@
 use super::names::Names;
 use super::schema::Kind;
 use super::section::Section;
+use crate::fields::FieldTable;
 use crate::scenario::{Fault, FaultKind, FaultRates, Faults};
 use starl_core::{Duration, Time};
 
@@ -36,23 +37,17 @@ pub(super) fn check_rate(
 }
 
 fn rates(table: Section<'_>, robots: u64, duration: Duration) -> FaultRates {
-    let rate = |field: &str, subjects: u64| {
-        let rate = table.number(field);
+    let rates = FaultRates::read(table);
+    for (field, rate, subjects) in [
+        ("crash", rates.crash, robots),
+        ("partition", rates.partition, 1),
+        ("stuck_motor", rates.stuck_motor, robots),
+        ("frozen_sensor", rates.frozen_sensor, robots),
+        ("corrupt_state", rates.corrupt_state, robots),
+    ] {
         check_rate(table, field, rate * subjects as f64, duration, "faults");
-        rate
-    };
-    FaultRates {
-        crash: rate("crash", robots),
-        restart_after: table
-            .optional_duration("restart_after")
-            .unwrap_or(Duration::ZERO),
-        partition: rate("partition", 1),
-        heal_after: table.duration("heal_after"),
-        stuck_motor: rate("stuck_motor", robots),
-        frozen_sensor: rate("frozen_sensor", robots),
-        repair_after: table.duration("repair_after"),
-        corrupt_state: rate("corrupt_state", robots),
     }
+    rates
 }
 
 fn fault(table: Section<'_>, names: &Names, duration: Duration) -> Option<Fault> {

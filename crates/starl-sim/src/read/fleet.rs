@@ -5,7 +5,8 @@ use super::report::Origin;
 use super::robots_option;
 use super::section::Section;
 use super::{Placed, start};
-use crate::scenario::{Bounds, Clock, Detector, Fleet, Group, Parameter, Proximity, SensorSuite};
+use crate::fields::FieldTable;
+use crate::scenario::{Bounds, Clock, Fleet, Group, Parameter, SensorSuite};
 use starl_core::{Duration, Pose};
 use starl_motion::Model;
 use std::collections::BTreeMap;
@@ -127,7 +128,7 @@ fn draft(
         area,
         spacing: table.number("spacing"),
         control_period: table.duration("control_period"),
-        sensors: table.table("sensors", sensors),
+        sensors: table.table("sensors", SensorSuite::read),
         clock: table.table("clock", clock),
         model: model(table, model_name.as_deref()?)?,
         origin: table.origin,
@@ -137,21 +138,6 @@ fn draft(
         name: name.or(model_name)?,
         ..draft
     })
-}
-
-fn sensors(table: Section<'_>) -> SensorSuite {
-    let range = |table: &Section<'_>| table.number("range");
-    SensorSuite {
-        bumper: table.flag("bumper"),
-        proximity: table.switch("proximity", |table| Proximity {
-            rays: table.count("rays").unwrap_or_default() as u32,
-            range: range(&table),
-        }),
-        detector: table.switch("detector", |table| Detector {
-            range: range(&table),
-        }),
-        discovery_range: table.number("discovery_range"),
-    }
 }
 
 fn clock(table: Section<'_>) -> Clock {
@@ -220,7 +206,7 @@ fn add_models(
             area: None,
             spacing: table.number("spacing"),
             control_period: table.duration("control_period"),
-            sensors: table.table("sensors", sensors),
+            sensors: table.table("sensors", SensorSuite::read),
             clock: table.table("clock", clock),
             origin,
             path: String::new(),

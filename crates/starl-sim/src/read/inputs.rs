@@ -1,6 +1,6 @@
 //! The inputs of a scenario, as plain data that a trace can contain.
 
-use super::problem::{Place, Problem};
+use crate::fields::{Place, Problem};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -12,36 +12,28 @@ mod fault;
 mod fleet;
 mod grid;
 mod inputs;
-mod leaves;
 mod names;
 mod network;
 mod obstacle;
 mod occupancy;
 mod order;
 mod parameter;
-mod path;
 mod place;
 mod placing;
-mod problem;
 mod reach;
-mod report;
 mod robots_option;
 pub mod schema;
-mod section;
 mod settings;
 mod start;
-pub mod suggest;
-mod tree;
-mod unit;
-mod value;
 mod world;
 mod world_file;
 
+pub use crate::fields::{Place, Problem, Problems, Quantity, suggest};
 pub use inputs::{Content, Inputs, Loader, Override, Request, Source};
-pub use problem::{Place, Problem, Problems};
-pub use unit::Quantity;
 
 use crate::Scenario;
+use crate::fields::schema::Dimension;
+use crate::fields::{path, report, section, tree, value};
 use inputs::Recorder;
 use path::Path;
 use report::{Origin, Report};
@@ -49,7 +41,6 @@ use section::Section;
 use starl_core::Duration;
 use std::collections::BTreeMap;
 use tree::{Node, Table, Value};
-use unit::Dimension;
 
 /// A scenario that was read.
 #[derive(Clone, Debug)]

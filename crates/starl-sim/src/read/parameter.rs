@@ -3,9 +3,9 @@
 use super::schema::{Dimension, Range};
 use super::section::Section;
 use super::tree::{Node, Value};
-use super::unit::Quantity;
 use super::value::{self, Complaint};
 use super::{Report, suggest};
+use crate::fields::Quantity;
 use crate::scenario::Parameter;
 use starl_core::{Duration, math};
 use starl_motion::Model;

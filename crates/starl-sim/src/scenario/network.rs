@@ -1,49 +1,88 @@
 //! How messages travel.
 
+use crate::fields::schema::{Dimension, Field, Kind, PERIOD, Range, SIZE, TIME};
+use crate::fields::section::Section;
+use crate::fields::tree::Node;
+use crate::fields::value::{self, Complaint};
+use crate::fields::written::{Table, text};
+use crate::fields::{FieldTable, FieldValue, field_table, read_written};
 use starl_core::intervention::{DelayDistribution, NetworkKnob};
 use starl_core::{Duration, RobotId};
 
-/// The simulated network. A datagram is sent once; every robot it could reach receives it, or not,
-/// on its own account.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Network {
-    /// The default for links.
-    pub link: Link,
-    /// Radio range between robots' centres, metres; none: everywhere; default none.
-    pub range: Option<f64>,
-    /// Obstacles and other robots' bodies block the radio; default false.
-    pub line_of_sight: bool,
-    /// The send rate of each robot, bits per second; datagrams queue; none: unlimited; default
-    /// none.
-    pub bandwidth: Option<f64>,
-    /// How long a datagram may wait in the sender's queue before it is dropped; default 1 s.
-    pub queue: Duration,
-    /// Largest datagram, bytes; larger ones are dropped, and the trace says so; default 65507.
-    pub largest: u32,
-    /// Times of arrival are exact; but a datagram arrives at the soonest in the slot of this length after the one
-    /// in which it was sent. Each physics step begins with a new slot; default 1 ms.
-    pub resolution: Duration,
-    /// Links that differ; the last that matches counts.
-    pub overrides: Vec<LinkOverride>,
+field_table! {
+    /// The simulated network. A datagram is sent once; every robot it could reach receives it, or not,
+    /// on its own account.
+    pub struct Network {
+        /// Radio range between robots' centres.
+        range: Option<f64> = SIZE, Word("everywhere");
+        /// Obstacles and other robots' bodies block the radio.
+        line_of_sight: bool = Kind::Flag, Value("false");
+        /// The send rate of each robot; datagrams queue.
+        bandwidth: Option<f64> = Kind::Quantity(Dimension::BitRate, Range::Positive), Word("unlimited");
+        /// The longest wait of a datagram in the sender's queue before it is dropped.
+        queue: Duration = TIME, Value("1s");
+        /// Largest datagram in bytes; larger ones are dropped, and the trace records this.
+        largest: u32 = Kind::Count(1, 1 << 30), Value("65507");
+        /// Datagrams arrive at their exact times, but at the soonest in the slot of this length after the one in which
+        /// they were sent.
+        resolution: Duration = PERIOD, Value("1ms");
+    }
+    besides {
+        /// The default for links.
+        pub link: Link,
+        /// Links that differ from the rest; the last that matches counts.
+        pub overrides: Vec<LinkOverride>,
+    }
 }
 
-/// The properties of a link.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Link {
-    /// Mean delay; default 15 ms.
-    pub delay: Duration,
-    /// Standard deviation of the delay; default 5 ms.
-    pub jitter: Duration,
-    /// How delays are distributed; default normal.
-    pub distribution: DelayDistribution,
-    /// Probability that a datagram is lost; default 0.
-    pub loss: f64,
-    /// Probability that it arrives twice, the second after a delay of its own; default 0.
-    pub duplication: f64,
-    /// Probability that it is held back, so that later ones overtake it; default 0.
-    pub reordering: f64,
-    /// How long it is held back then, on top of its delay; default 50 ms.
-    pub reordering_delay: Duration,
+field_table! {
+    /// The properties of a link.
+    #[derive(Copy)]
+    pub struct Link {
+        /// Mean delay.
+        delay: Duration = TIME, Value("15ms");
+        /// Standard deviation of the delay.
+        jitter: Duration = TIME, Value("5ms");
+        /// The distribution of delays: always the mean; even over the mean plus and minus the square root of three times
+        /// the jitter; normal, cut off at zero; or the mean minus the jitter, plus an exponential part whose mean is the
+        /// jitter.
+        distribution: DelayDistribution = Kind::Choice(&DISTRIBUTIONS), Value("normal");
+        /// A datagram is lost.
+        loss: f64 = Kind::Probability, Value("0");
+        /// It arrives twice, the second after a delay of its own.
+        duplication: f64 = Kind::Probability, Value("0");
+        /// It is held back, so that later ones overtake it.
+        reordering: f64 = Kind::Probability, Value("0");
+        /// The time for which it is held back, in addition to its delay.
+        reordering_delay: Duration = TIME, Value("50ms");
+    }
+}
+
+/// The words for the distributions of delays.
+const DISTRIBUTIONS: [&str; 4] = ["constant", "uniform", "normal", "exponential"];
+
+impl FieldValue for DelayDistribution {
+    fn parse(node: &Node, _: &Kind) -> Result<DelayDistribution, Complaint> {
+        Ok(match value::choice(node, &DISTRIBUTIONS)?.as_str() {
+            "constant" => DelayDistribution::Constant,
+            "uniform" => DelayDistribution::Uniform,
+            "exponential" => DelayDistribution::Exponential,
+            _ => DelayDistribution::Normal,
+        })
+    }
+
+    fn show(&self, _: &Field) -> String {
+        text(match self {
+            DelayDistribution::Constant => "constant",
+            DelayDistribution::Uniform => "uniform",
+            DelayDistribution::Normal => "normal",
+            DelayDistribution::Exponential => "exponential",
+        })
+    }
+
+    fn differs(&self, base: &DelayDistribution) -> bool {
+        self != base
+    }
 }
 
 /// A set of links that differ from the rest.
@@ -55,35 +94,6 @@ pub struct LinkOverride {
     pub to: Option<Vec<RobotId>>,
     /// The properties of these links.
     pub link: Link,
-}
-
-impl Default for Link {
-    fn default() -> Link {
-        Link {
-            delay: Duration::from_millis(15),
-            jitter: Duration::from_millis(5),
-            distribution: DelayDistribution::default(),
-            loss: 0.0,
-            duplication: 0.0,
-            reordering: 0.0,
-            reordering_delay: Duration::from_millis(50),
-        }
-    }
-}
-
-impl Default for Network {
-    fn default() -> Network {
-        Network {
-            link: Link::default(),
-            range: None,
-            line_of_sight: false,
-            bandwidth: None,
-            queue: Duration::from_seconds(1),
-            largest: 65_507,
-            resolution: Duration::from_millis(1),
-            overrides: Vec::new(),
-        }
-    }
 }
 
 /// Parts of a link's delay that do not go together, and what to do about it.
@@ -120,25 +130,6 @@ impl Link {
 }
 
 impl Network {
-    /// Turns one knob.
-    pub fn turn(&mut self, knob: NetworkKnob) {
-        let link = &mut self.link;
-        match knob {
-            NetworkKnob::Delay(delay) => link.delay = delay,
-            NetworkKnob::Jitter(jitter) => link.jitter = jitter,
-            NetworkKnob::Distribution(distribution) => link.distribution = distribution,
-            NetworkKnob::Loss(loss) => link.loss = loss,
-            NetworkKnob::Duplication(duplication) => link.duplication = duplication,
-            NetworkKnob::Reordering(reordering) => link.reordering = reordering,
-            NetworkKnob::ReorderingDelay(delay) => link.reordering_delay = delay,
-            NetworkKnob::Range(range) => self.range = range,
-            NetworkKnob::LineOfSight(is_needed) => self.line_of_sight = is_needed,
-            NetworkKnob::Bandwidth(bandwidth) => self.bandwidth = bandwidth,
-            NetworkKnob::Queue(queue) => self.queue = queue,
-            NetworkKnob::Largest(largest) => self.largest = largest,
-        }
-    }
-
     /// Delays that are shorter than the resolution and therefore have no exact effect; none if datagrams arrive
     /// immediately.
     pub fn too_short_delays(&self) -> impl Iterator<Item = Duration> {
@@ -158,4 +149,55 @@ impl Network {
             .find(|link| names(&link.from, from) && names(&link.to, to))
             .map_or(&self.link, |link| &link.link)
     }
+}
+
+/// Declares which field of the network each knob changes.
+macro_rules! knobs {
+    ($($knob:ident: $field:ident $(of $table:ident)?,)+) => {
+        impl Network {
+            /// Turns one knob.
+            pub fn turn(&mut self, knob: NetworkKnob) {
+                match knob {
+                    $(NetworkKnob::$knob(value) => self.$($table.)?$field = value,)+
+                }
+            }
+
+            /// The changes of the network that are written in a table.
+            pub(crate) fn read_knobs(section: Section<'_>) -> Vec<NetworkKnob> {
+                let mut knobs = Vec::new();
+                $(knobs.extend(read_written(section, stringify!($field)).map(NetworkKnob::$knob));)+
+                knobs
+            }
+
+            /// Writes a change of the network.
+            pub(crate) fn write_knob(table: &mut Table, knob: NetworkKnob) {
+                let field = |name: &str| {
+                    let mut fields = Link::FIELDS.iter().chain(Network::FIELDS);
+                    fields.find(|field| field.name == name)
+                };
+                match knob {
+                    $(NetworkKnob::$knob(value) => {
+                        if let Some(field) = field(stringify!($field)) {
+                            table.set(field.name, value.show(field));
+                        }
+                    })+
+                }
+            }
+        }
+    };
+}
+
+knobs! {
+    Delay: delay of link,
+    Jitter: jitter of link,
+    Distribution: distribution of link,
+    Loss: loss of link,
+    Duplication: duplication of link,
+    Reordering: reordering of link,
+    ReorderingDelay: reordering_delay of link,
+    Range: range,
+    LineOfSight: line_of_sight,
+    Bandwidth: bandwidth,
+    Queue: queue,
+    Largest: largest,
 }

@@ -1,13 +1,11 @@
 //! Writes `event`.
 
 use super::faults::set_kind;
-use super::network::word;
 use super::table::{Table, flag, list, number, planar, quantity, spatial, text, time};
 use super::world::set_shape;
 use crate::read::is_quantity;
-use crate::scenario::{Bounds, Fleet, Joins, Moment, Occasion, ScenarioEvent};
+use crate::scenario::{Bounds, Fleet, Joins, Moment, Network, Occasion, ScenarioEvent};
 use starl_core::event::Value;
-use starl_core::intervention::NetworkKnob;
 use starl_core::{Duration, Intervention, Order, RobotId, Time, WayPoint};
 
 /// The events of a run of this duration that can take place.
@@ -96,7 +94,9 @@ fn event(event: &ScenarioEvent, names: &Names<'_>) -> String {
         }
         Intervention::Network(knobs) => {
             kind("network");
-            knobs.iter().for_each(|&knob| set_knob(&mut table, knob));
+            knobs
+                .iter()
+                .for_each(|&knob| Network::write_knob(&mut table, knob));
         }
         Intervention::AddObstacle { obstacle, hidden } => {
             kind("add_obstacle");
@@ -170,28 +170,6 @@ fn event(event: &ScenarioEvent, names: &Names<'_>) -> String {
         }
     }
     table.finish_element()
-}
-
-fn set_knob(table: &mut Table, knob: NetworkKnob) {
-    let limit = |limit: Option<f64>, unit: &str, none: &str| match limit {
-        Some(limit) => quantity(limit, unit),
-        None => text(none),
-    };
-    let (name, value) = match knob {
-        NetworkKnob::Delay(delay) => ("delay", time(delay)),
-        NetworkKnob::Jitter(jitter) => ("jitter", time(jitter)),
-        NetworkKnob::Distribution(distribution) => ("distribution", text(word(distribution))),
-        NetworkKnob::Loss(share) => ("loss", number(share)),
-        NetworkKnob::Duplication(share) => ("duplication", number(share)),
-        NetworkKnob::Reordering(share) => ("reordering", number(share)),
-        NetworkKnob::ReorderingDelay(delay) => ("reordering_delay", time(delay)),
-        NetworkKnob::Range(range) => ("range", limit(range, "m", "everywhere")),
-        NetworkKnob::LineOfSight(is_needed) => ("line_of_sight", flag(is_needed)),
-        NetworkKnob::Bandwidth(most) => ("bandwidth", limit(most, "bit/s", "unlimited")),
-        NetworkKnob::Queue(longest) => ("queue", time(longest)),
-        NetworkKnob::Largest(bytes) => ("largest", bytes.to_string()),
-    };
-    table.set(name, value);
 }
 
 /// A value of an order.

@@ -1,8 +1,9 @@
 //! Writes `fault` and `fault_rates`.
 
 use super::fleet::names;
-use super::table::{Table, list, quantity, text, time};
-use crate::scenario::{Fault, FaultKind, FaultRates, Faults, Fleet};
+use super::table::{Table, list, text, time};
+use crate::fields::FieldTable;
+use crate::scenario::{Fault, FaultKind, Faults, Fleet};
 use starl_core::{Duration, RobotId, Time};
 
 /// The faults in a run of this duration.
@@ -11,7 +12,7 @@ pub(super) fn write(faults: &Faults, fleet: &Fleet, duration: Duration) -> Strin
     let happens = |fault: &&Fault| fault.at < Time::ZERO + duration;
     let schedule = schedule.iter().filter(happens);
     let mut out: String = schedule.map(|entry| fault(entry, fleet)).collect();
-    out += &self::rates(rates);
+    out += &rates.write("fault_rates");
     out
 }
 
@@ -53,29 +54,4 @@ pub(super) fn set_kind(table: &mut Table, kind: &FaultKind, names: impl Fn(&[Rob
         let manned = groups.iter().filter(|group| !group.is_empty());
         table.set("groups", list(manned.map(|group| names(group))));
     }
-}
-
-fn rates(rates: &FaultRates) -> String {
-    let FaultRates {
-        crash,
-        restart_after,
-        partition,
-        heal_after,
-        stuck_motor,
-        frozen_sensor,
-        repair_after,
-        corrupt_state,
-    } = *rates;
-    let default = FaultRates::default();
-    let rate = |rate: f64| quantity(rate, "/s");
-    let mut table = Table::named("fault_rates");
-    table.differing("crash", crash, 0.0, rate);
-    table.differing("restart_after", restart_after, Duration::ZERO, time);
-    table.differing("partition", partition, 0.0, rate);
-    table.differing("heal_after", heal_after, default.heal_after, time);
-    table.differing("stuck_motor", stuck_motor, 0.0, rate);
-    table.differing("frozen_sensor", frozen_sensor, 0.0, rate);
-    table.differing("repair_after", repair_after, default.repair_after, time);
-    table.differing("corrupt_state", corrupt_state, 0.0, rate);
-    table.finish()
 }

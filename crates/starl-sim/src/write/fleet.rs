@@ -1,7 +1,8 @@
 //! Writes `robots`.
 
-use super::table::{Table, flag, list, metres, number, quantity, spatial, text, time};
-use crate::scenario::{Clock, Detector, Fleet, Group, Parameter, Proximity, SensorSuite};
+use super::table::{Table, flag, list, number, quantity, spatial, text, time};
+use crate::fields::FieldTable;
+use crate::scenario::{Clock, Fleet, Group, Parameter};
 use starl_core::{Duration, Pose, RobotId};
 use starl_motion::Model;
 use std::collections::BTreeMap;
@@ -38,7 +39,7 @@ fn group(group: &Group) -> String {
     let tables = [
         ("parameters", program_parameters(parameters)),
         ("model_parameters", model_parameters(&**model)),
-        ("sensors", self::sensors(sensors)),
+        ("sensors", sensors.write_inline()),
         ("clock", self::clock(clock)),
     ];
     for (name, content) in tables {
@@ -105,28 +106,6 @@ fn model_parameters(model: &dyn Model) -> Option<String> {
         };
         table.set(field.name, value);
     }
-    table.inline()
-}
-
-fn sensors(sensors: &SensorSuite) -> Option<String> {
-    let SensorSuite {
-        bumper,
-        proximity,
-        detector,
-        discovery_range,
-    } = sensors;
-    let default = SensorSuite::default();
-    let mut table = Table::root();
-    table.differing("bumper", *bumper, default.bumper, flag);
-    if let Some(Proximity { rays, range }) = proximity {
-        let range = metres(*range);
-        table.set("proximity", format!("{{ rays = {rays}, range = {range} }}"));
-    }
-    if let Some(Detector { range }) = detector {
-        table.set("detector", format!("{{ range = {} }}", metres(*range)));
-    }
-    let range = default.discovery_range;
-    table.differing("discovery_range", *discovery_range, range, metres);
     table.inline()
 }
 

@@ -12,11 +12,10 @@ mod events;
 mod faults;
 mod fleet;
 mod network;
-mod settings;
-mod table;
 mod world;
 
 use crate::Scenario;
+use crate::fields::{FieldTable, written as table};
 use crate::scenario::Goal;
 use table::{Table, text, time};
 
@@ -56,15 +55,15 @@ pub fn scenario(scenario: &Scenario) -> String {
     let mut out = root.finish();
     out += &world::write(world);
     out += &fleet::write(fleet);
-    out += &settings::physics(physics);
-    out += &settings::positioning(positioning);
-    out += &settings::motion(motion);
-    out += &settings::storage(storage);
-    out += &settings::wind(wind);
+    out += &physics.write("physics");
+    out += &positioning.write("positioning");
+    out += &motion.write("motion");
+    out += &storage.write("storage");
+    out += &wind.write("wind");
     out += &network::write(network, fleet);
     out += &faults::write(faults, fleet, *duration);
     out += &events::write(events, fleet, *duration);
-    out += &settings::properties(properties);
-    out += &settings::trace(trace);
+    out += &properties.write("properties");
+    out += &trace.write("trace");
     out
 }

@@ -1,6 +1,7 @@
 //! The fields of a group of robots.
 
 use super::*;
+use crate::scenario::SensorSuite;
 
 /// Robots of the same kind.
 pub(super) const ROBOTS: &[Field] = &[
@@ -70,7 +71,7 @@ pub(super) const ROBOTS: &[Field] = &[
         Default::Value("100ms"),
         "Time between two activations of the program.",
     ),
-    table("sensors", SENSORS, "The sensors of the robots."),
+    table("sensors", SensorSuite::FIELDS, "The sensors of the robots."),
     table(
         "clock",
         CLOCK,
@@ -99,56 +100,6 @@ const START: &[Field] = &[
         "Direction from the x axis, left positive.",
     ),
 ];
-
-const SENSORS: &[Field] = &[
-    field(
-        "bumper",
-        Kind::Flag,
-        Default::Value("true"),
-        "Feels contacts.",
-    ),
-    field(
-        "proximity",
-        Kind::Switch(PROXIMITY),
-        Default::Value("false"),
-        "Measures distances along rays evenly round the body, the first straight ahead.",
-    ),
-    field(
-        "detector",
-        Kind::Switch(DETECTOR),
-        Default::Value("false"),
-        "Sees things and robots in line of sight.",
-    ),
-    field(
-        "discovery_range",
-        LENGTH,
-        Default::Value("600mm"),
-        "Hidden obstacles this near to the body's edge and in line of sight become known. A robot \
-         that bumps into one knows it in any case.",
-    ),
-];
-
-const PROXIMITY: &[Field] = &[
-    field(
-        "rays",
-        Kind::Count(1, 1024),
-        Default::Value("24"),
-        "The number of rays.",
-    ),
-    field(
-        "range",
-        SIZE,
-        Default::Value("100mm"),
-        "Their range beyond the body's edge.",
-    ),
-];
-
-const DETECTOR: &[Field] = &[field(
-    "range",
-    SIZE,
-    Default::Value("600mm"),
-    "The range, from the robot's centre.",
-)];
 
 const CLOCK: &[Field] = &[
     field(

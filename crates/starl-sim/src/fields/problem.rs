@@ -91,7 +91,7 @@ impl From<Problem> for Problems {
 }
 
 /// Line and column, both from 1, of a byte offset in a text; offsets beyond the end count as the end.
-pub(super) fn line_and_column(text: &str, offset: usize) -> (u32, u32) {
+pub(crate) fn line_and_column(text: &str, offset: usize) -> (u32, u32) {
     let mut end = offset.min(text.len());
     while !text.is_char_boundary(end) {
         end -= 1;

@@ -7,7 +7,7 @@ use std::fmt::Display;
 /// Where a value came from: an offset in one of the texts that are being read. Ordered as the texts
 /// are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Origin {
+pub(crate) struct Origin {
     /// Which text, by its number in the report.
     pub text: u32,
     /// Byte offset in the file.
@@ -24,7 +24,7 @@ enum Text {
 
 /// The texts being read and their problems.
 #[derive(Default)]
-pub(super) struct Report {
+pub(crate) struct Report {
     texts: RefCell<Vec<Text>>,
     problems: RefCell<Vec<(Origin, Problem)>>,
 }

@@ -12,7 +12,7 @@ use super::value::Complaint;
 
 /// A table of the scenario with its schema.
 #[derive(Clone, Copy)]
-pub(super) struct Section<'a> {
+pub(crate) struct Section<'a> {
     table: Option<&'a Table>,
     path: &'a Path<'a>,
     fields: &'static [Field],

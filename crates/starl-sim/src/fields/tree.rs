@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 
 /// A value and where it was written.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// Where.
     pub origin: Origin,
     /// The value.
@@ -19,7 +19,7 @@ pub(super) struct Node {
 
 /// A value.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// A text.
     Text(String),
     /// A whole number.
@@ -37,11 +37,11 @@ pub(super) enum Value {
 }
 
 /// Named values, each with the place of its name.
-pub(super) type Table = BTreeMap<String, Entry>;
+pub(crate) type Table = BTreeMap<String, Entry>;
 
 /// A named value.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(crate) struct Entry {
     /// Where the name was written.
     pub name_origin: Origin,
     /// The value.
@@ -75,7 +75,7 @@ impl Node {
 }
 
 /// Parses a whole document; syntax errors go to the report.
-pub(super) fn parse_document(text: &str, start: Origin, report: &Report) -> Option<Node> {
+pub(crate) fn parse_document(text: &str, start: Origin, report: &Report) -> Option<Node> {
     match DeTable::parse(text) {
         Ok(table) => Some(Node {
             origin: start,
@@ -90,7 +90,7 @@ pub(super) fn parse_document(text: &str, start: Origin, report: &Report) -> Opti
 }
 
 /// Parses the value of a command-line option: TOML, or a text without quotes.
-pub(super) fn parse_value(text: &str, start: Origin) -> Node {
+pub(crate) fn parse_value(text: &str, start: Origin) -> Node {
     let parsed = DeValue::parse(text).map(|value| convert(value.get_ref(), start));
     let digits = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '_');
     let value = match parsed {

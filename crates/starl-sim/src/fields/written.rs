@@ -4,7 +4,7 @@ use starl_core::{Duration, Point};
 use std::fmt::Write;
 
 /// A table whose lines are being collected.
-pub(super) struct Table {
+pub(crate) struct Table {
     header: String,
     lines: String,
 }
@@ -79,7 +79,7 @@ fn key(name: &str) -> String {
 }
 
 /// A text in quotes.
-pub(super) fn text(content: &str) -> String {
+pub(crate) fn text(content: &str) -> String {
     let mut out = String::from("\"");
     for character in content.chars() {
         match character {
@@ -95,18 +95,18 @@ pub(super) fn text(content: &str) -> String {
 }
 
 /// A list within a line.
-pub(super) fn list(elements: impl IntoIterator<Item = String>) -> String {
+pub(crate) fn list(elements: impl IntoIterator<Item = String>) -> String {
     let elements: Vec<String> = elements.into_iter().collect();
     format!("[{}]", elements.join(", "))
 }
 
 /// A span of time with its unit.
-pub(super) fn time(span: Duration) -> String {
+pub(crate) fn time(span: Duration) -> String {
     format!("\"{span}\"")
 }
 
 /// A number in SI with its unit.
-pub(super) fn quantity(number: f64, unit: &str) -> String {
+pub(crate) fn quantity(number: f64, unit: &str) -> String {
     // Not so for -0.
     match number.to_bits() == 0 {
         true => "0".to_string(),
@@ -114,23 +114,18 @@ pub(super) fn quantity(number: f64, unit: &str) -> String {
     }
 }
 
-/// Seconds that are not whole nanoseconds.
-pub(super) fn seconds(number: f64) -> String {
-    quantity(number, "s")
-}
-
 /// Metres.
-pub(super) fn metres(number: f64) -> String {
+pub(crate) fn metres(number: f64) -> String {
     quantity(number, "m")
 }
 
 /// A number without a unit.
-pub(super) fn number(number: f64) -> String {
+pub(crate) fn number(number: f64) -> String {
     format!("{number:?}")
 }
 
 /// `true` or `false`.
-pub(super) fn flag(flag: bool) -> String {
+pub(crate) fn flag(flag: bool) -> String {
     flag.to_string()
 }
 
@@ -144,12 +139,12 @@ fn coordinate(number: f64) -> String {
 }
 
 /// A point of the floor plane.
-pub(super) fn planar(point: Point) -> String {
+pub(crate) fn planar(point: Point) -> String {
     list([point.x, point.y].map(coordinate))
 }
 
 /// A point or a velocity, with its height where it has one.
-pub(super) fn spatial(point: Point) -> String {
+pub(crate) fn spatial(point: Point) -> String {
     match point.z.to_bits() == 0 {
         true => planar(point),
         false => solid(point),
@@ -157,7 +152,7 @@ pub(super) fn spatial(point: Point) -> String {
 }
 
 /// A point with its height.
-pub(super) fn solid(point: Point) -> String {
+pub(crate) fn solid(point: Point) -> String {
     list([point.x, point.y, point.z].map(coordinate))
 }
 

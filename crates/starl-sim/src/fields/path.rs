@@ -1,7 +1,7 @@
 //! The dotted path of a table, such as `robots.0.sensors`, built only when a problem needs it.
 
 /// The dotted path of a table, as a chain towards the root.
-pub(super) struct Path<'a> {
+pub(crate) struct Path<'a> {
     above: Option<&'a Path<'a>>,
     name: String,
 }

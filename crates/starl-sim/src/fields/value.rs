@@ -1,13 +1,13 @@
 //! Turns a node of the tree into what its field holds, or says why it is not that.
 
-use super::schema::{Dimension, Kind, LEAST_PERIOD, Range, model_names};
+use super::schema::{Dimension, LEAST_PERIOD, Range, model_names};
 use super::suggest;
 use super::tree::{Node, Value};
 use super::unit::Quantity;
-use starl_core::Point;
+use starl_core::{Duration, Point};
 
 /// A complaint about a value: the problem, and a suggested fix.
-pub(super) type Complaint = (String, Option<String>);
+pub(crate) type Complaint = (String, Option<String>);
 
 fn complain<T>(message: String, help: impl Into<String>) -> Result<T, Complaint> {
     Err((message, Some(help.into())))
@@ -18,7 +18,7 @@ fn not_a<T>(node: &Node, what: &str, help: impl Into<String>) -> Result<T, Compl
 }
 
 /// A text with something in it.
-pub(super) fn text(node: &Node) -> Result<String, Complaint> {
+pub(crate) fn text(node: &Node) -> Result<String, Complaint> {
     match &node.value {
         Value::Text(text) if text.trim().is_empty() => complain(
             "the text is empty".to_string(),
@@ -38,7 +38,7 @@ pub(super) fn text(node: &Node) -> Result<String, Complaint> {
 }
 
 /// `true` or `false`.
-pub(super) fn flag(node: &Node) -> Result<bool, Complaint> {
+pub(crate) fn flag(node: &Node) -> Result<bool, Complaint> {
     match &node.value {
         Value::Flag(flag) => Ok(*flag),
         _ => not_a(node, "true or false", "write true or false, without quotes"),
@@ -46,7 +46,7 @@ pub(super) fn flag(node: &Node) -> Result<bool, Complaint> {
 }
 
 /// One of a few words.
-pub(super) fn choice(node: &Node, words: &[&str]) -> Result<String, Complaint> {
+pub(crate) fn choice(node: &Node, words: &[&str]) -> Result<String, Complaint> {
     match &node.value {
         Value::Text(text) if words.contains(&text.as_str()) => Ok(text.clone()),
         Value::Text(text) => {
@@ -62,7 +62,7 @@ pub(super) fn choice(node: &Node, words: &[&str]) -> Result<String, Complaint> {
 }
 
 /// The name of a robot model.
-pub(super) fn model(node: &Node) -> Result<String, Complaint> {
+pub(crate) fn model(node: &Node) -> Result<String, Complaint> {
     let names: Vec<&str> = model_names().collect();
     match &node.value {
         Value::Text(text) if names.contains(&text.as_str()) => Ok(text.clone()),
@@ -79,7 +79,7 @@ pub(super) fn model(node: &Node) -> Result<String, Complaint> {
 }
 
 /// A whole number within bounds.
-pub(super) fn count(node: &Node, least: u64, most: u64) -> Result<u64, Complaint> {
+pub(crate) fn count(node: &Node, least: u64, most: u64) -> Result<u64, Complaint> {
     let number = match &node.value {
         Value::Integer(number) => *number,
         Value::Other("number", text) => {
@@ -110,7 +110,7 @@ pub(super) fn count(node: &Node, least: u64, most: u64) -> Result<u64, Complaint
 }
 
 /// A number from 0 to 1, also as a percentage.
-pub(super) fn probability(node: &Node) -> Result<f64, Complaint> {
+pub(crate) fn probability(node: &Node) -> Result<f64, Complaint> {
     let help = "give a number from 0 to 1, or a percentage such as \"20%\"";
     match quantity(node, Dimension::Ratio, Range::Any) {
         Ok(number) if (0.0..=1.0).contains(&number) => Ok(number),
@@ -119,7 +119,7 @@ pub(super) fn probability(node: &Node) -> Result<f64, Complaint> {
 }
 
 /// A number of some dimension, in SI.
-pub(super) fn quantity(node: &Node, dimension: Dimension, range: Range) -> Result<f64, Complaint> {
+pub(crate) fn quantity(node: &Node, dimension: Dimension, range: Range) -> Result<f64, Complaint> {
     let (number, unit) = match &node.value {
         Value::Integer(number) => (*number as f64, ""),
         Value::Float(number) => (*number, ""),
@@ -214,7 +214,7 @@ fn ranged(number: f64, node: &Node) -> Result<f64, Complaint> {
 }
 
 /// `[x, y]`, and `[x, y, z]` where allowed; the number of coordinates distinguishes them.
-pub(super) fn point(
+pub(crate) fn point(
     node: &Node,
     dimension: Dimension,
     spatial: bool,
@@ -235,7 +235,7 @@ pub(super) fn point(
 }
 
 /// `[low, high]`.
-pub(super) fn heights(node: &Node) -> Result<(f64, f64), Complaint> {
+pub(crate) fn heights(node: &Node) -> Result<(f64, f64), Complaint> {
     let (what, help) = ("a pair of heights", "write [low, high] in metres");
     match coordinates(node, Dimension::Length, what, help)?.as_slice() {
         &[low, high] if low < high => Ok((low, high)),
@@ -247,16 +247,14 @@ pub(super) fn heights(node: &Node) -> Result<(f64, f64), Complaint> {
     }
 }
 
-/// The value of a quantity's default.
-pub(super) fn default_number(kind: &Kind, text: &str) -> f64 {
-    let node = Node {
-        origin: Default::default(),
-        value: Value::Text(text.to_string()),
-    };
-    match kind {
-        Kind::Probability => probability(&node),
-        Kind::Quantity(dimension, range) => quantity(&node, *dimension, *range),
-        _ => Ok(0.0),
+/// A duration of so many seconds.
+pub(crate) fn duration(seconds: f64) -> Result<Duration, Complaint> {
+    let duration = Duration::from_seconds_f64(seconds);
+    match duration.is_zero() && seconds > 0.0 {
+        true => complain(
+            "this is less than half a nanosecond".to_string(),
+            "give at least \"1ns\"",
+        ),
+        false => Ok(duration),
     }
-    .unwrap_or(0.0)
 }

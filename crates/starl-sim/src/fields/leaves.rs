@@ -3,6 +3,7 @@
 //! Each method asks for a field of one kind; which kinds, ranges and defaults there are is the
 //! schema's to say.
 
+use super::plain::FieldValue;
 use super::report::Origin;
 use super::schema::{Default, Dimension, Field, Kind};
 use super::section::Section;
@@ -53,10 +54,17 @@ impl<'a> Section<'a> {
             .collect()
     }
 
+    /// The value of a field of plain data, or none where there is neither value nor default.
+    fn plain<T: FieldValue>(&self, name: &str) -> Option<T> {
+        let field = self.field(name);
+        let preset = || matches!(field.default, Default::Value(_)).then(|| T::preset(field));
+        self.read(name, |node| T::parse(node, &field.kind))
+            .or_else(preset)
+    }
+
     /// `true` or `false`.
     pub fn flag(&self, name: &str) -> bool {
-        let default = matches!(self.field(name).default, Default::Value("true"));
-        self.read(name, value::flag).unwrap_or(default)
+        self.plain(name).unwrap_or_default()
     }
 
     /// One of a choice of words.
@@ -96,15 +104,7 @@ impl<'a> Section<'a> {
 
     /// A probability or quantity in SI, or none where there is neither value nor default.
     pub fn optional_number(&self, name: &str) -> Option<f64> {
-        let Field { kind, default, .. } = self.field(name);
-        let number = self.read(name, |node| match kind {
-            Kind::Quantity(dimension, range) => value::quantity(node, *dimension, *range),
-            _ => value::probability(node),
-        });
-        number.or(match default {
-            Default::Value(text) => Some(value::default_number(kind, text)),
-            _ => None,
-        })
+        self.plain(name)
     }
 
     /// A probability or quantity in SI.
@@ -114,16 +114,7 @@ impl<'a> Section<'a> {
 
     /// A duration, or none where there is neither value nor default.
     pub fn optional_duration(&self, name: &str) -> Option<Duration> {
-        let duration = Duration::from_seconds_f64(self.optional_number(name)?);
-        let written = self.node(name).is_some();
-        if written && duration.is_zero() && self.number(name) > 0.0 {
-            self.problem(
-                name,
-                "this is less than half a nanosecond",
-                "give at least \"1ns\"",
-            );
-        }
-        Some(duration)
+        self.plain(name)
     }
 
     /// A duration.
@@ -135,12 +126,6 @@ impl<'a> Section<'a> {
     pub fn point(&self, name: &str) -> Option<(Point, usize)> {
         let spatial = matches!(self.field(name).kind, Kind::Point);
         self.read(name, |node| value::point(node, Dimension::Length, spatial))
-    }
-
-    /// A velocity; zero where left out.
-    pub fn velocity(&self, name: &str) -> Point {
-        self.read(name, |node| value::point(node, Dimension::Speed, true))
-            .map_or(Point::ZERO, |(velocity, _)| velocity)
     }
 
     /// A list of points of the floor plane.

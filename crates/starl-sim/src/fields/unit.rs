@@ -72,6 +72,12 @@ impl Dimension {
         own.map(|unit| unit.name)
     }
 
+    /// The name of its unit in SI; empty for a ratio.
+    pub(crate) fn si(self) -> &'static str {
+        let is_si = |unit: &&Unit| unit.dimension == self && unit.times == unit.over;
+        UNITS.iter().find(is_si).map_or("", |unit| unit.name)
+    }
+
     /// All spellings of its units, such as `us` and `\u{b5}s`.
     pub fn spellings(self) -> impl Iterator<Item = &'static str> {
         self.unit_names().flat_map(|name| {
@@ -99,7 +105,7 @@ impl Dimension {
     }
 
     /// Its units, e.g. `ns, us, ms, s, min or h`.
-    pub(super) fn units(self) -> String {
+    pub(crate) fn units(self) -> String {
         let names: Vec<&str> = self.unit_names().collect();
         match names.split_last() {
             Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
