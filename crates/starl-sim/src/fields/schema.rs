@@ -1,4 +1,4 @@
-//! What a field of a scenario is: its name, kind, default and meaning.
+//! The kinds of fields of a scenario, with their ranges, defaults and meanings.
 
 pub use super::unit::Dimension;
 
