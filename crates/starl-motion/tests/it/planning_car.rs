@@ -131,3 +131,21 @@ fn a_car_facing_a_wall_is_not_sent_straight_on() {
         "{gap} {end} {path:?}"
     );
 }
+
+/// A fault can set a target anywhere: the work may not grow with its distance.
+#[test]
+fn a_target_at_the_end_of_the_world_is_planned_for_at_once() {
+    let model = model("car");
+    for yaw in [0.0, 2.0, 3.0] {
+        for distance in [1e4, 1e7, 1e9] {
+            let (from, to) = (
+                Point::planar(0.5, 0.5),
+                Point::planar(distance, 0.3 * distance),
+            );
+            let mut case = Case::new(from, to, Vec::new());
+            case.yaw = yaw;
+            let path = case.plan(&*model).expect("there is nothing in the way");
+            assert_eq!(path.last(), Some(&to));
+        }
+    }
+}
