@@ -13,6 +13,7 @@ use super::vector::Vector;
 use crate::tracking::{Goal, Tracking};
 use crate::{Disturbance, Model, State};
 use alloc::vec::Vec;
+use core::cell::Cell;
 use starl_core::motion::Estimate;
 use starl_core::{Duration, Time, math};
 
@@ -32,16 +33,30 @@ const FAR: f64 = 500.0;
 /// Time between estimates.
 const PERIOD: Duration = Duration::from_millis(100);
 
+/// For each node of a tree so many steps are simulated, on average over the search. Where the tree has to fill a space
+/// of thousands of kilometres this ends the search.
+const STEPS_PER_NODE: u64 = 200;
+
 /// A robot of a model, driving in a space.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Driving<'a, const D: usize> {
-    /// The robot's model.
-    pub model: &'a dyn Model,
-    /// Where it drives.
-    pub space: &'a FreeSpace<D>,
+    model: &'a dyn Model,
+    space: &'a FreeSpace<D>,
+    /// How many steps it may still simulate. No drive arrives without any.
+    steps_left: Cell<u64>,
 }
 
-impl<const D: usize> Driving<'_, D> {
+impl<'a, const D: usize> Driving<'a, D> {
+    /// A robot of a model that drives in a space, for a search with at most so many nodes.
+    pub fn new(model: &'a dyn Model, space: &'a FreeSpace<D>, most_nodes: u32) -> Driving<'a, D> {
+        let steps_left = Cell::new(STEPS_PER_NODE * u64::from(most_nodes));
+        Driving {
+            model,
+            space,
+            steps_left,
+        }
+    }
+
     /// An upper bound of the steps of a drive that arrives: turning all the way round twice and
     /// thrice the distance, at the model's own pace.
     fn most_steps(&self, distance: f64) -> u32 {
@@ -87,6 +102,7 @@ impl<const D: usize> Driving<'_, D> {
             if distance <= NEAR {
                 return passing;
             }
+            self.steps_left.set(self.steps_left.get().checked_sub(1)?);
             let estimate = Estimate {
                 pose: state.pose,
                 twist: state.twist,

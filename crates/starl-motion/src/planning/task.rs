@@ -224,10 +224,7 @@ impl Task<'_> {
         let mut random = self.random();
         // Where a point finds no way a body finds none, and the point is much sooner done.
         self.connect(space, root, target, nodes, &mut random)?;
-        let driving = Driving {
-            model: self.model,
-            space,
-        };
+        let driving = Driving::new(self.model, space, nodes);
         let mut pose = Pose {
             position: self.from,
             ..self.start.pose

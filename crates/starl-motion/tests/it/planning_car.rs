@@ -148,4 +148,11 @@ fn a_target_at_the_end_of_the_world_is_planned_for_at_once() {
             assert_eq!(path.last(), Some(&to));
         }
     }
+    // In a closed room there is no path, and a tree has no chance.
+    let (from, to) = (Point::planar(0.5, 0.5), Point::planar(1e9, 1e9));
+    let case = Case::new(from, to, planning_support::room(-5.0, 5.0));
+    assert_eq!(case.plan(&*model), None);
+    let wall = planning_support::wall((3.0, -3.0), (3.0, 3.0));
+    let case = Case::new(from, Point::planar(1e9, 0.0), vec![wall]);
+    case.plan(&*model);
 }
