@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::report::{broken, made};
+use super::shape::is_ordered;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Comprehension, Element, Expression, ExpressionKind, LoopVariables, Type};
@@ -195,12 +196,21 @@ impl Checker {
         let (ty, element) = element(self);
         self.body.leave(mark);
         let comprehension = Comprehension {
+        let key = clause.key().map(|key| self.sorting_key(key));
+        if let Some(by) = clause.by()
+            && !matches!(ty, Type::List(_))
+        {
+            let what = "sets and maps have an order of their own; only a list can be sorted `by`";
+            let problem = Diagnostic::new(Code::Misplaced, by.text_range().into(), what);
+            self.report(problem.note("write it in square brackets: `[x for x in xs by key]`"));
+        }
             element,
             variables,
             collection,
             condition,
         };
         made(
+            key,
             ExpressionKind::Comprehension(Box::new(comprehension)),
             ty,
             span,
@@ -209,6 +219,25 @@ impl Checker {
 
     /// `base[index]`.
     pub fn index(&mut self, node: &ast::IndexExpression, span: Span) -> Expression {
+    /// The key by which a list is sorted, of a type that `<` compares.
+    fn sorting_key(&mut self, node: ast::Expression) -> Expression {
+        let key = self.value(Some(node), None, "the key");
+        if is_ordered(&key.ty) {
+            return key;
+        }
+        let problem = Diagnostic::new(Code::WrongType, key.span, "`by` cannot sort by this");
+        let problem = problem
+            .expected("what `<` compares")
+            .found(self.name_of(&key.ty));
+        self.report(match key.ty {
+            Type::Optional(_) => {
+                problem.note("leave out those without a key: `if some k = ... by k`")
+            }
+            _ => problem,
+        });
+        broken(key.span)
+    }
+
         let base = self.infer(node.base(), None);
         match base.ty.clone() {
             Type::List(element) => {

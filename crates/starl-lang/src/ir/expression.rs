@@ -240,6 +240,8 @@ pub struct Comprehension {
     pub condition: Option<Expression>,
 }
 
+    /// For a list: the key by which the elements are in ascending order; equal ones in the order of the source.
+    pub key: Option<Expression>,
 /// The element that a comprehension adds in each step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Element {

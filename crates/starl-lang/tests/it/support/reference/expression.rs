@@ -2,7 +2,7 @@
 
 use super::builtin::{index, method, position, pure, sum};
 use super::operator::apply;
-use super::value::{Value, equal, find, put, set, shown, text, weight};
+use super::value::{Value, equal, find, order, put, set, shown, text, weight};
 use super::{Outcome, Reference, Stop, shared_kind};
 use starl_lang::check::{Builtin, Purity, Signature};
 use starl_lang::ir::*;
@@ -450,6 +450,7 @@ impl<'a> Reference<'a> {
                 && !self.holds(condition)?
             {
                 continue;
+        let mut keys = Vec::new();
             }
             match &of.element {
                 Element::One(element) => {
@@ -471,10 +472,18 @@ impl<'a> Reference<'a> {
         Ok(match ty {
             Type::List(_) => Value::List(elements),
             Type::Set(_) => Value::Set(set(elements)),
+            if let Some(key) = &of.key {
+                keys.push(self.evaluate(key)?);
+            }
             _ => Value::Map(map),
         })
     }
 
+        if of.key.is_some() {
+            let mut rows: Vec<_> = keys.into_iter().zip(elements).collect();
+            rows.sort_by(|(left, _), (right, _)| order(left, right));
+            elements = rows.into_iter().map(|(_, element)| element).collect();
+        }
     /// The items of a loop: elements, or keys with their values.
     pub fn items(&mut self, collection: &'a Expression) -> Outcome<Items> {
         if let ExpressionKind::Range { start, end } = &collection.kind {
