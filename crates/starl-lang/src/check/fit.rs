@@ -3,9 +3,9 @@
 use alloc::boxed::Box;
 use alloc::format;
 
-use super::report::broken;
+use super::report::{around, broken};
 use super::state::Checker;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Fix, Span};
 use crate::ir::{Expression, ExpressionKind, Type};
 use crate::syntax::ast;
 
@@ -19,6 +19,11 @@ pub(super) fn same(a: &Type, b: &Type) -> bool {
         (Type::Map(k, v), Type::Map(l, w)) => same(k, l) && same(v, w),
         _ => a == b,
     }
+}
+
+/// A robot as a number.
+pub(super) fn number_of(robot: Span) -> Fix {
+    around("`Int(...)` is the number of the robot", robot, "Int(", ")")
 }
 
 impl Checker {
@@ -60,7 +65,7 @@ impl Checker {
     }
 
     /// A range where a value must stand.
-    pub fn misplaced_range(&mut self, span: crate::diagnostic::Span) -> Expression {
+    pub fn misplaced_range(&mut self, span: Span) -> Expression {
         let problem = Diagnostic::new(Code::MisplacedRange, span, "a range is not a value");
         self.report(problem.note("it stands after `in`: in `for i in 0..n` or `x in 0..n`"));
         broken(span)
@@ -94,6 +99,10 @@ impl Checker {
                 let note =
                     "`Int(...)` drops the fraction; `round`, `floor` and `ceil` give an Int too";
                 problem.note(note)
+            }
+            (Type::Robot, Type::Int) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                problem.fix(number_of(span))
             }
             (Type::Int | Type::Float, Type::Duration)
                 if matches!(
