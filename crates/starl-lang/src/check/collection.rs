@@ -8,7 +8,9 @@ use super::report::{broken, made};
 use super::shape::is_ordered;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Comprehension, Element, Expression, ExpressionKind, LoopVariables, Type};
+use crate::ir::{
+    Comprehension, Element, Expression, ExpressionKind, LoopVariables, RobotMember, Type,
+};
 use crate::syntax::ast;
 
 impl Checker {
@@ -194,8 +196,6 @@ impl Checker {
             .condition()
             .map(|condition| self.expect(Some(condition), &Type::Bool, "the condition"));
         let (ty, element) = element(self);
-        self.body.leave(mark);
-        let comprehension = Comprehension {
         let key = clause.key().map(|key| self.sorting_key(key));
         if let Some(by) = clause.by()
             && !matches!(ty, Type::List(_))
@@ -204,21 +204,21 @@ impl Checker {
             let problem = Diagnostic::new(Code::Misplaced, by.text_range().into(), what);
             self.report(problem.note("write it in square brackets: `[x for x in xs by key]`"));
         }
+        self.body.leave(mark);
+        let comprehension = Comprehension {
             element,
             variables,
             collection,
             condition,
+            key,
         };
         made(
-            key,
             ExpressionKind::Comprehension(Box::new(comprehension)),
             ty,
             span,
         )
     }
 
-    /// `base[index]`.
-    pub fn index(&mut self, node: &ast::IndexExpression, span: Span) -> Expression {
     /// The key by which a list is sorted, of a type that `<` compares.
     fn sorting_key(&mut self, node: ast::Expression) -> Expression {
         let key = self.value(Some(node), None, "the key");
@@ -238,6 +238,8 @@ impl Checker {
         broken(key.span)
     }
 
+    /// `base[index]`.
+    pub fn index(&mut self, node: &ast::IndexExpression, span: Span) -> Expression {
         let base = self.infer(node.base(), None);
         match base.ty.clone() {
             Type::List(element) => {
@@ -247,12 +249,23 @@ impl Checker {
             }
             Type::Map(key, value) => {
                 let key = Box::new(self.expect(node.index(), &key, "the key"));
-                if let ExpressionKind::SharedMap(shared) = base.kind {
-                    let kind = ExpressionKind::SharedElement { shared, robot: key };
-                    return made(kind, Type::optional(*value), span);
-                }
-                let base = Box::new(base);
-                made(ExpressionKind::Lookup { base, key }, *value, span)
+                let (shared, of) = match base.kind {
+                    ExpressionKind::SharedMap(shared) => (shared, None),
+                    ExpressionKind::OfRobot {
+                        robot,
+                        member: RobotMember::Shared(shared),
+                    } if self.program[shared].is_single_writer => (shared, Some(robot)),
+                    _ => {
+                        let base = Box::new(base);
+                        return made(ExpressionKind::Lookup { base, key }, *value, span);
+                    }
+                };
+                let kind = ExpressionKind::SharedElement {
+                    shared,
+                    robot: key,
+                    of,
+                };
+                made(kind, Type::optional(*value), span)
             }
             Type::Error => {
                 self.infer(node.index(), None);

@@ -108,7 +108,7 @@ impl<'p> Body<'_, 'p> {
             Root::Variable(id) => Location::State(self.unit.variable(*id)),
             Root::Shared(id) => {
                 let slot = self.take_for(ty)?;
-                self.at(place.span, |body| body.shared(*id, slot, ty, true))?;
+                self.at(place.span, |body| body.shared(*id, None, slot, ty, true))?;
                 way.back.push(WriteBack::Shared(*id, slot));
                 Location::Registers(slot)
             }

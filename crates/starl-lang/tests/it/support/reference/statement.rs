@@ -170,7 +170,7 @@ impl<'a> Reference<'a> {
                 .clone()
                 .expect("a local has a value"),
             Root::Variable(id) => self.variables[id.index()].clone(),
-            Root::Shared(id) => self.shared(*id)?,
+            Root::Shared(id) => self.shared(*id, None)?,
             Root::OwnElement(_) | Root::Error => panic!("it is written as a whole"),
         })
     }
