@@ -2,6 +2,7 @@
 
 use alloc::boxed::Box;
 use alloc::format;
+use alloc::string::String;
 
 use super::report::{around, broken};
 use super::state::Checker;
@@ -24,6 +25,16 @@ pub(super) fn same(a: &Type, b: &Type) -> bool {
 /// A robot as a number.
 pub(super) fn number_of(robot: Span) -> Fix {
     around("`Int(...)` is the number of the robot", robot, "Int(", ")")
+}
+
+/// The text before and after a value that becomes an operand of a product or quotient.
+fn operand(value: &Expression, after: &str) -> (&'static str, String) {
+    match value.kind {
+        ExpressionKind::Binary { .. }
+        | ExpressionKind::Conditional { .. }
+        | ExpressionKind::Default { .. } => ("(", format!("){after}")),
+        _ => ("", String::from(after)),
+    }
 }
 
 impl Checker {
@@ -110,17 +121,41 @@ impl Checker {
                     ExpressionKind::Int(_) | ExpressionKind::Float(_)
                 ) =>
             {
-                let problem = problem(Code::WrongType, format!("{role} is a time without a unit"));
                 let text = self.text(span);
-                if text.ends_with(|last: char| last.is_ascii_digit()) {
-                    let seconds = format!("{text}s");
-                    return problem.replace(
-                        format!("write `{seconds}` if these are seconds"),
+                let digits = text.trim_end_matches(|last: char| last.is_ascii_alphabetic());
+                let (what, unit) = match &text[digits.len()..] {
+                    "" => ("a time without a unit", "s"),
+                    "deg" | "rad" => ("an angle, not a time", ""),
+                    "m" => ("a length, not a time", "min"),
+                    _ => ("a length, not a time", ""),
+                };
+                let problem = problem(Code::WrongType, format!("{role} is {what}"));
+                let meant = format!("{digits}{unit}");
+                match unit {
+                    "s" => problem.replace(
+                        format!("write `{meant}` if these are seconds"),
                         span,
-                        seconds,
-                    );
+                        meant,
+                    ),
+                    "min" => problem.replace(
+                        format!("write `{meant}` if these are minutes"),
+                        span,
+                        meant,
+                    ),
+                    _ => problem,
                 }
-                problem
+            }
+            (Type::Duration, Type::Float) => {
+                let problem = problem(Code::WrongType, format!("{role} is a time, not a number"));
+                let (before, after) = operand(value, " / 1s");
+                let fix = "divide it by a unit: `... / 1s` is its number of seconds";
+                problem.fix(around(fix, span, before, &after))
+            }
+            (Type::Int | Type::Float, Type::Duration) => {
+                let problem = problem(Code::WrongType, format!("{role} is a number, not a time"));
+                let (before, after) = operand(value, " * 1s");
+                let fix = "multiply it by a unit: `... * 1s` if these are seconds";
+                problem.fix(around(fix, span, before, &after))
             }
             _ => {
                 let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
