@@ -9,7 +9,7 @@ const DECLARATIONS = new Set(
 );
 const CONTROL = new Set("if then elif else for in return let pre every eff".split(" "));
 const OPERATORS = new Set(
-  "and or not some forall exists leads_to within recovers assuming despite crashes".split(" "),
+  "and or not some by forall exists leads_to within recovers assuming despite crashes".split(" "),
 );
 const ATOMS = new Set(["true", "false", "none"]);
 const TYPES = new Set(

@@ -7,6 +7,7 @@ use starl_explore::{Invariant, Scene};
 use starl_lang::machine::{Claim, State};
 use starl_lang::robot::properties::{Fleet, Judge};
 use starl_lang::robot::{Code, RobotProgram};
+use starl_primitives::SharedMemory;
 use starl_properties::Violation;
 use std::sync::Arc;
 
@@ -72,14 +73,24 @@ struct Members<'a> {
     robots: &'a [RobotId],
 }
 
+impl Members<'_> {
+    fn program(&self, robot: RobotId) -> Option<&RobotProgram> {
+        self.scene.program(robot)?.downcast_ref()
+    }
+}
+
 impl Fleet for Members<'_> {
     fn robots(&self) -> &[RobotId] {
         self.robots
     }
 
     fn state_of(&self, robot: RobotId) -> Option<&State> {
-        let program: &RobotProgram = self.scene.program(robot)?.downcast_ref()?;
+        let program = self.program(robot)?;
         program.has_started().then(|| program.state())
+    }
+
+    fn memory(&self, robot: RobotId) -> Option<&SharedMemory> {
+        self.program(robot).and_then(RobotProgram::memory)
     }
 
     fn pose(&self, robot: RobotId) -> Option<Pose> {

@@ -6,6 +6,7 @@ use starl_core::{Duration, Point, Pose, RobotId, Time, WayPoint};
 use starl_lang::machine::State;
 use starl_lang::robot::properties::{Excuse, Fleet, Judge, Standing};
 use starl_lang::robot::{Code, RobotProgram};
+use starl_primitives::SharedMemory;
 use starl_properties::{Monitor, Violation, Witness};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -161,6 +162,10 @@ impl Fleet for Members<'_> {
     fn state_of(&self, robot: RobotId) -> Option<&State> {
         let program = self.program(robot)?;
         program.has_started().then(|| program.state())
+    }
+
+    fn memory(&self, robot: RobotId) -> Option<&SharedMemory> {
+        self.program(robot).and_then(RobotProgram::memory)
     }
 
     fn version(&self, robot: RobotId) -> Option<u64> {

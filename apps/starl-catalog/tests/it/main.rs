@@ -16,6 +16,7 @@ mod line_is_even;
 mod mutex_gives_turns;
 mod policies_are_evaluated;
 mod program_parameters;
+mod programs_from_the_reference;
 mod programs_steer;
 mod race_in_both_languages;
 mod race_thousand_seeds;

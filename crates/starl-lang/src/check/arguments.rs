@@ -102,7 +102,8 @@ impl Checker {
         if let Some(expected) = self.shape_type(shape, letters) {
             return self.expect(Some(value), &expected, role);
         }
-        let value = self.value(Some(value), None, role);
+        let hint = matches!(shape, Shape::Letter(b'F')).then_some(&Type::Float);
+        let value = self.value(Some(value), hint, role);
         let before = letters.clone();
         if self.shape_matches(shape, &value.ty, letters) {
             return value;

@@ -2,7 +2,7 @@
 
 use alloc::format;
 
-use super::fit::same;
+use super::fit::{number_of, same};
 use super::operator::joined;
 use super::report::{around, broken};
 use super::shape::is_ordered;
@@ -100,6 +100,8 @@ impl Checker {
                 "String(",
                 ")",
             )),
+            (Type::Robot, Type::Int, _) => problem.fix(number_of(left.span)),
+            (Type::Int, Type::Robot, _) => problem.fix(number_of(right.span)),
             (Type::Set(_), Type::Set(_), BinaryOperator::Add) => problem.note("it is `a.union(b)`"),
             (Type::Set(_), Type::Set(_), BinaryOperator::Subtract) => {
                 problem.note("it is `a.difference(b)`")

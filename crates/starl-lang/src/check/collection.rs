@@ -5,9 +5,12 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::report::{broken, made};
+use super::shape::is_ordered;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Comprehension, Element, Expression, ExpressionKind, LoopVariables, Type};
+use crate::ir::{
+    Comprehension, Element, Expression, ExpressionKind, LoopVariables, RobotMember, Type,
+};
 use crate::syntax::ast;
 
 impl Checker {
@@ -193,18 +196,46 @@ impl Checker {
             .condition()
             .map(|condition| self.expect(Some(condition), &Type::Bool, "the condition"));
         let (ty, element) = element(self);
+        let key = clause.key().map(|key| self.sorting_key(key));
+        if let Some(by) = clause.by()
+            && !matches!(ty, Type::List(_))
+        {
+            let what = "sets and maps have an order of their own; only a list can be sorted `by`";
+            let problem = Diagnostic::new(Code::Misplaced, by.text_range().into(), what);
+            self.report(problem.note("write it in square brackets: `[x for x in xs by key]`"));
+        }
         self.body.leave(mark);
         let comprehension = Comprehension {
             element,
             variables,
             collection,
             condition,
+            key,
         };
         made(
             ExpressionKind::Comprehension(Box::new(comprehension)),
             ty,
             span,
         )
+    }
+
+    /// The key by which a list is sorted, of a type that `<` compares.
+    fn sorting_key(&mut self, node: ast::Expression) -> Expression {
+        let key = self.value(Some(node), None, "the key");
+        if is_ordered(&key.ty) {
+            return key;
+        }
+        let problem = Diagnostic::new(Code::WrongType, key.span, "`by` cannot sort by this");
+        let problem = problem
+            .expected("what `<` compares")
+            .found(self.name_of(&key.ty));
+        self.report(match key.ty {
+            Type::Optional(_) => {
+                problem.note("leave out those without a key: `if some k = ... by k`")
+            }
+            _ => problem,
+        });
+        broken(key.span)
     }
 
     /// `base[index]`.
@@ -218,12 +249,23 @@ impl Checker {
             }
             Type::Map(key, value) => {
                 let key = Box::new(self.expect(node.index(), &key, "the key"));
-                if let ExpressionKind::SharedMap(shared) = base.kind {
-                    let kind = ExpressionKind::SharedElement { shared, robot: key };
-                    return made(kind, Type::optional(*value), span);
-                }
-                let base = Box::new(base);
-                made(ExpressionKind::Lookup { base, key }, *value, span)
+                let (shared, of) = match base.kind {
+                    ExpressionKind::SharedMap(shared) => (shared, None),
+                    ExpressionKind::OfRobot {
+                        robot,
+                        member: RobotMember::Shared(shared),
+                    } if self.program[shared].is_single_writer => (shared, Some(robot)),
+                    _ => {
+                        let base = Box::new(base);
+                        return made(ExpressionKind::Lookup { base, key }, *value, span);
+                    }
+                };
+                let kind = ExpressionKind::SharedElement {
+                    shared,
+                    robot: key,
+                    of,
+                };
+                made(kind, Type::optional(*value), span)
             }
             Type::Error => {
                 self.infer(node.index(), None);

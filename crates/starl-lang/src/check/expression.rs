@@ -41,7 +41,13 @@ impl Checker {
         expected: Option<&Type>,
     ) -> Expression {
         match expression {
-            ast::Expression::Literal(node) => self.literal(node.value(), span, expected),
+            ast::Expression::Literal(node) => {
+                let value = node.value();
+                if let Literal::String(_) = value {
+                    self.check_braces(&node, span);
+                }
+                self.literal(value, span, expected)
+            }
             ast::Expression::Name(node) => self.name(&node.text(), span, expected),
             ast::Expression::Parenthesized(node) => self.infer(node.inner(), expected),
             ast::Expression::Field(node) => self.member(&node, span),

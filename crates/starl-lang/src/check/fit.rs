@@ -2,10 +2,11 @@
 
 use alloc::boxed::Box;
 use alloc::format;
+use alloc::string::String;
 
-use super::report::broken;
+use super::report::{around, broken};
 use super::state::Checker;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Fix, Span};
 use crate::ir::{Expression, ExpressionKind, Type};
 use crate::syntax::ast;
 
@@ -18,6 +19,21 @@ pub(super) fn same(a: &Type, b: &Type) -> bool {
         | (Type::Optional(a), Type::Optional(b)) => same(a, b),
         (Type::Map(k, v), Type::Map(l, w)) => same(k, l) && same(v, w),
         _ => a == b,
+    }
+}
+
+/// A robot as a number.
+pub(super) fn number_of(robot: Span) -> Fix {
+    around("`Int(...)` is the number of the robot", robot, "Int(", ")")
+}
+
+/// The text before and after a value that becomes an operand of a product or quotient.
+fn operand(value: &Expression, after: &str) -> (&'static str, String) {
+    match value.kind {
+        ExpressionKind::Binary { .. }
+        | ExpressionKind::Conditional { .. }
+        | ExpressionKind::Default { .. } => ("(", format!("){after}")),
+        _ => ("", String::from(after)),
     }
 }
 
@@ -60,7 +76,7 @@ impl Checker {
     }
 
     /// A range where a value must stand.
-    pub fn misplaced_range(&mut self, span: crate::diagnostic::Span) -> Expression {
+    pub fn misplaced_range(&mut self, span: Span) -> Expression {
         let problem = Diagnostic::new(Code::MisplacedRange, span, "a range is not a value");
         self.report(problem.note("it stands after `in`: in `for i in 0..n` or `x in 0..n`"));
         broken(span)
@@ -95,23 +111,51 @@ impl Checker {
                     "`Int(...)` drops the fraction; `round`, `floor` and `ceil` give an Int too";
                 problem.note(note)
             }
+            (Type::Robot, Type::Int) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                problem.fix(number_of(span))
+            }
             (Type::Int | Type::Float, Type::Duration)
                 if matches!(
                     value.kind,
                     ExpressionKind::Int(_) | ExpressionKind::Float(_)
                 ) =>
             {
-                let problem = problem(Code::WrongType, format!("{role} is a time without a unit"));
                 let text = self.text(span);
-                if text.ends_with(|last: char| last.is_ascii_digit()) {
-                    let seconds = format!("{text}s");
-                    return problem.replace(
-                        format!("write `{seconds}` if these are seconds"),
+                let digits = text.trim_end_matches(|last: char| last.is_ascii_alphabetic());
+                let (what, unit) = match &text[digits.len()..] {
+                    "" => ("a time without a unit", "s"),
+                    "deg" | "rad" => ("an angle, not a time", ""),
+                    "m" => ("a length, not a time", "min"),
+                    _ => ("a length, not a time", ""),
+                };
+                let problem = problem(Code::WrongType, format!("{role} is {what}"));
+                let meant = format!("{digits}{unit}");
+                match unit {
+                    "s" => problem.replace(
+                        format!("write `{meant}` if these are seconds"),
                         span,
-                        seconds,
-                    );
+                        meant,
+                    ),
+                    "min" => problem.replace(
+                        format!("write `{meant}` if these are minutes"),
+                        span,
+                        meant,
+                    ),
+                    _ => problem,
                 }
-                problem
+            }
+            (Type::Duration, Type::Float) => {
+                let problem = problem(Code::WrongType, format!("{role} is a time, not a number"));
+                let (before, after) = operand(value, " / 1s");
+                let fix = "divide it by a unit: `... / 1s` is its number of seconds";
+                problem.fix(around(fix, span, before, &after))
+            }
+            (Type::Int | Type::Float, Type::Duration) => {
+                let problem = problem(Code::WrongType, format!("{role} is a number, not a time"));
+                let (before, after) = operand(value, " * 1s");
+                let fix = "multiply it by a unit: `... * 1s` if these are seconds";
+                problem.fix(around(fix, span, before, &after))
             }
             _ => {
                 let problem = problem(Code::WrongType, format!("{role} has the wrong type"));

@@ -279,6 +279,7 @@ impl Checker {
             (_, Some(roles)) => Some(RobotMember::Variable(roles.variable)),
             (Some(Entity::Variable(id)), _) => Some(RobotMember::Variable(id)),
             (Some(Entity::Parameter(id)), _) => Some(RobotMember::Parameter(id)),
+            (Some(Entity::Shared(id)), _) => Some(RobotMember::Shared(id)),
             _ => robot_member(name),
         };
         if self.body.place != Where::Property {
@@ -292,20 +293,25 @@ impl Checker {
             let message = format!("a robot has no `{name}`");
             let problem = Diagnostic::new(Code::UnknownMember, at, message);
             let known = ["position", "heading", "velocity", "finished", "up", "id"];
-            let variables = self
-                .program
-                .variables
-                .iter()
-                .map(|variable| variable.name.as_str());
-            let problem = did_you_mean(problem, at, name, variables.chain(known));
+            let variables = self.program.variables.iter();
+            let variables = variables.map(|variable| variable.name.as_str());
+            let shared = self.program.shared.iter().map(|one| one.name.as_str());
+            let names = variables.chain(shared).chain(known);
+            let problem = did_you_mean(problem, at, name, names);
             let list = format!("it has the variables of the program, and {}", listed(known));
             self.report(problem.note(list));
             return broken(span);
         };
         self.resolve_robot_member(at, member);
+        if let RobotMember::Shared(id) = member
+            && self.is_linearizable(id, name, at)
+        {
+            return broken(span);
+        }
         match member {
             RobotMember::Variable(id) => self.usage.used.insert(Entity::Variable(id)),
             RobotMember::Parameter(id) => self.usage.used.insert(Entity::Parameter(id)),
+            RobotMember::Shared(id) => self.usage.used.insert(Entity::Shared(id)),
             _ => false,
         };
         self.of_robot(robot, member, span)
@@ -333,6 +339,7 @@ impl Checker {
             match member {
                 RobotMember::Variable(id) => Symbol::Variable(id),
                 RobotMember::Parameter(id) => Symbol::Parameter(id),
+                RobotMember::Shared(id) => Symbol::Shared(id),
                 RobotMember::Position => Symbol::RobotMember("position"),
                 RobotMember::Heading => Symbol::RobotMember("heading"),
                 RobotMember::Velocity => Symbol::RobotMember("velocity"),

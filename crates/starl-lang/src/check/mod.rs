@@ -13,6 +13,7 @@ mod arithmetic;
 mod asked;
 mod behaviour;
 mod body;
+mod braces;
 mod builtin;
 mod call;
 mod collect;

@@ -71,6 +71,7 @@ impl Checker {
         match shape {
             Shape::Letter(b'N') => "Int or Float".into(),
             Shape::Letter(b'M') => "Int, Float, Duration or Time".into(),
+            Shape::Letter(b'F') => "Float or RobotId".into(),
             Shape::Letter(b'O') => "what `<` compares".into(),
             Shape::Message => "a message".into(),
             Shape::List(element) => format!("List[{}]", part(element)),
@@ -87,6 +88,7 @@ fn letter_allows(letter: u8, of: &Type) -> bool {
         b'N' => matches!(of, Type::Int | Type::Float),
         b'M' => matches!(of, Type::Int | Type::Float | Type::Duration | Type::Time),
         b'O' => is_ordered(of),
+        b'F' => matches!(of, Type::Float | Type::Robot),
         _ => !matches!(of, Type::Nothing | Type::Range),
     }
 }

@@ -8,7 +8,7 @@ use super::report::{broken, made};
 use super::scope::Entity;
 use super::state::{Checker, Needed, Progress};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Expression, ExpressionKind, RobotMember, Type};
+use crate::ir::{Consistency, Expression, ExpressionKind, RobotMember, SharedId, Type};
 
 impl Checker {
     /// A declaration, of this file or of a library, as a value.
@@ -154,6 +154,7 @@ impl Checker {
         let ty = match member {
             RobotMember::Variable(id) => self.program[id].ty.clone(),
             RobotMember::Parameter(id) => self.program[id].ty.clone(),
+            RobotMember::Shared(id) => self.shared_type(id),
             RobotMember::Position | RobotMember::Velocity => Type::Point,
             RobotMember::Heading => Type::Float,
             RobotMember::Finished | RobotMember::Up => Type::Bool,
@@ -178,15 +179,17 @@ impl Checker {
         self.report(problem.note(note));
     }
 
-    pub fn shared_value(&mut self, id: crate::ir::SharedId, name: &str, span: Span) -> Expression {
+    pub fn shared_value(&mut self, id: SharedId, name: &str, span: Span) -> Expression {
         match self.body.place {
             Where::Guard | Where::Effect => {}
             Where::Property => {
-                let message = format!("a property cannot read the shared variable `{name}`");
-                let problem = Diagnostic::new(Code::InvalidProperty, span, message);
-                let note = "robots may see different values of it; use their own variables";
-                self.report(problem.note(note));
-                return broken(span);
+                if self.is_linearizable(id, name, span) {
+                    return broken(span);
+                }
+                return match self.robot_of_property(span) {
+                    Some(robot) => self.of_robot(robot, RobotMember::Shared(id), span),
+                    None => self.of_no_robot(name, name, span),
+                };
             }
             _ => {
                 self.state_out_of_reach(name, span);
@@ -194,14 +197,35 @@ impl Checker {
             }
         }
         self.body.touched.push((id, span));
-        let shared = &self.program[id];
-        let ty = shared.ty.clone();
-        if shared.is_single_writer {
-            let ty = Type::map(Type::Robot, ty);
-            return made(ExpressionKind::SharedMap(id), ty, span);
+        let ty = self.shared_type(id);
+        let kind = match self.program[id].is_single_writer {
+            true => ExpressionKind::SharedMap(id),
+            false => ExpressionKind::Shared(id),
+        };
+        made(kind, ty, span)
+    }
+
+    /// The type that a shared variable has for its readers.
+    fn shared_type(&self, id: SharedId) -> Type {
+        let ty = self.program[id].ty.clone();
+        if self.program[id].is_single_writer {
+            Type::map(Type::Robot, ty)
+        } else if self.nodes.shared[id.index()].value().is_some() {
+            ty
+        } else {
+            Type::optional(ty)
         }
-        let has_value = self.nodes.shared[id.index()].value().is_some();
-        let ty = if has_value { ty } else { Type::optional(ty) };
-        made(ExpressionKind::Shared(id), ty, span)
+    }
+
+    /// Whether a shared variable has no copies that a property could read; reports it if so.
+    pub fn is_linearizable(&mut self, id: SharedId, name: &str, span: Span) -> bool {
+        if self.program[id].consistency != Consistency::Linearizable {
+            return false;
+        }
+        let message = format!("a property cannot read the linearizable variable `{name}`");
+        let problem = Diagnostic::new(Code::InvalidProperty, span, message);
+        let note = "robots have no copies of it; store what an action reads in a variable";
+        self.report(problem.note(note));
+        true
     }
 }

@@ -243,6 +243,8 @@ codes! {
     NothingShared = "W0212",
     /// A text whose `{}` do not match the values after it.
     FormatValues = "W0213",
+    /// A name in braces in a text, which is not replaced by its value.
+    BracedName = "W0214",
 }
 
 impl Code {

@@ -197,6 +197,11 @@ pub(super) const EXPRESSIONS: &[Word] = &[
         "Whether a value is an element, a key or a part.",
     ),
     word(
+        "by",
+        "[x for x in xs by key]",
+        "Sorts the list by this key, ascending; elements with equal keys stay in their order.",
+    ),
+    word(
         "then",
         "if condition then a else b",
         "The value or statement for the case that the condition holds.",

@@ -57,6 +57,8 @@ pub enum ExpressionKind {
         shared: SharedId,
         /// The robot.
         robot: Box<Expression>,
+        /// In properties: the robot whose copy is read.
+        of: Option<Box<Expression>>,
     },
     /// All of a single-writer variable that is known: a map by RobotId.
     SharedMap(SharedId),
@@ -238,6 +240,8 @@ pub struct Comprehension {
     pub collection: Expression,
     /// Which elements are taken, if not all.
     pub condition: Option<Expression>,
+    /// For a list: the key by which the elements are in ascending order; equal ones in the order of the source.
+    pub key: Option<Expression>,
 }
 
 /// The element that a comprehension adds in each step.
@@ -256,6 +260,8 @@ pub enum RobotMember {
     Variable(VariableId),
     /// Its parameter.
     Parameter(ParameterId),
+    /// Its copy of a shared variable: a map, a value or an optional, as the robot reads it.
+    Shared(SharedId),
     /// Where it is: the true position where the host knows it, a Point.
     Position,
     /// Where it looks, a Float in radians.

@@ -126,7 +126,8 @@ pub enum Step {
     Coordinate(u8),
     /// An element of a list; outside of the list it is a run-time error.
     Index(Expression),
-    /// The value of a key of a map. As the last step it may be new; before that, a key that is not
-    /// there is a run-time error, as it is if the value is updated.
+    /// The value of a key of a map. As the last step it may be new: an update by `+` or `-` and a method that adds
+    /// ([`Method::adds`](crate::check::Method::adds)) then start from the default value of the type. Otherwise, and
+    /// before the last step, a missing key is a run-time error.
     Key(Expression),
 }

@@ -360,6 +360,9 @@ instructions! {
     /// Sorts, equal elements in the order that they had. A shift of the list times the binary
     /// logarithm of its size.
     ListSort "list_sort" { list: ObjectInOut, kind: Type }
+    /// Sorts by the keys, a list of type `kind` with one for each element; elements with equal keys stay in the order
+    /// that they had, those without a key go. Costs as sorting the keys, and a shift of the list.
+    ListSortBy "list_sort_by" { list: ObjectInOut, keys: ObjectIn, kind: Type }
     /// Keeps the elements from `first` on and before `last`. A shift of the list. Error: index.
     ListSlice "list_slice" { list: ObjectInOut, first: In, last: In }
     /// to = the sum of a list of Ints. A shift of the list. Error: overflow.

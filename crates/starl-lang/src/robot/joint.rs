@@ -3,7 +3,7 @@
 use super::builtins::{BUILTINS, Builtin};
 use super::messages::Outgoing;
 use super::primitives::{Entry, KINDS};
-use super::properties::{self, OBSERVABLES};
+use super::properties::{self, observables};
 use super::shape::{Declared, Shape, Signature};
 use crate::machine::Import;
 use alloc::vec::Vec;
@@ -64,7 +64,7 @@ impl Joiner {
     /// Joins an import; returns the joint's number, or none if neither robots nor properties implement the import.
     pub fn join(&self, import: &Import) -> Option<u32> {
         let (on_robot, leading) = self.on_robot(import);
-        let mut observables = OBSERVABLES.iter().filter(|observable| {
+        let mut observables = observables().filter(|observable| {
             let signature = &observable.signature;
             signature.name == import.name && self.declared.matches(import, signature, 0)
         });

@@ -43,7 +43,7 @@ use alloc::string::{String, ToString};
 /// The names of all functions that programs can import, as [`crate::machine::Import`] has them.
 pub fn functions() -> impl Iterator<Item = String> {
     let builtins = builtins::BUILTINS.iter().map(|b| &b.signature);
-    let observables = properties::OBSERVABLES.iter().map(|o| &o.signature);
+    let observables = properties::observables().map(|o| &o.signature);
     let plain = builtins.chain(observables).map(|s| s.name.to_string());
     let members = primitives::KINDS.iter().flat_map(|kind| {
         let names = kind.members().map(|signature| signature.name);

@@ -25,6 +25,7 @@ use starl_core::random::hash_key;
 use starl_core::{
     Message, Order, Point, Port, Primitive, Primitives, Program, Random, Robot, Time,
 };
+use starl_primitives::SharedMemory;
 
 /// A StarL program on one robot.
 ///
@@ -114,6 +115,11 @@ impl RobotProgram {
     /// of the robot included.
     pub fn version(&self) -> u64 {
         self.version
+    }
+
+    /// Its copies of the program's shared variables; none before it starts, or if there are none.
+    pub fn memory(&self) -> Option<&SharedMemory> {
+        self.services.memory.as_deref()
     }
 
     /// The code that it runs.

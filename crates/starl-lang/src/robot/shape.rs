@@ -59,6 +59,8 @@ pub enum Shape {
     Optional(&'static Shape),
     /// Any message, whose name is the import's label.
     Message,
+    /// The number of a shared variable, whose name is the import's label.
+    Shared,
     /// Any value.
     Any,
 }
@@ -158,8 +160,9 @@ impl Declared {
         let Some((own, fields)) = arguments.split_at_checked(count) else {
             return false;
         };
-        let takes_message = signature.parameters.contains(&Shape::Message);
-        let labels = if takes_message { 1 } else { fields.len() };
+        let is_labelled = |shape: &Shape| matches!(shape, Shape::Message | Shape::Shared);
+        let takes_label = signature.parameters.iter().any(is_labelled);
+        let labels = if takes_label { 1 } else { fields.len() };
         first.iter().all(|kind| *kind == Type::Int)
             && import.query == signature.query
             && (fields.is_empty() || signature.fields)
@@ -182,7 +185,7 @@ impl Declared {
         match (shape, kind) {
             (Shape::Any, _)
             | (Shape::Bool, Type::Bool)
-            | (Shape::Int, Type::Int)
+            | (Shape::Int | Shape::Shared, Type::Int)
             | (Shape::Float, Type::Float)
             | (Shape::Time, Type::Time)
             | (Shape::Duration, Type::Duration)

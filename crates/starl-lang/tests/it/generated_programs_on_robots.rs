@@ -2,54 +2,14 @@
 //! and a copy continues like the original.
 
 use crate::robot_support::World;
+use crate::robot_support::seen::Seen;
 use crate::support::{generate, hold};
-use starl_core::{Input, Message, Order, Point, Pose, Random, RobotId, Value};
-use starl_lang::machine::{Origin, State};
-use starl_lang::robot::properties::{Fleet, Judge};
+use starl_core::{Input, Message, Order, Point, Random, RobotId, Value};
+use starl_lang::machine::Origin;
+use starl_lang::robot::properties::Judge;
 use starl_lang::robot::{Code, RobotProgram};
 
 const ROBOTS: u32 = 2;
-
-/// The robots as an observer sees them.
-struct Seen<'a>(&'a World, Vec<RobotId>);
-
-impl Fleet for Seen<'_> {
-    fn robots(&self) -> &[RobotId] {
-        &self.1
-    }
-
-    fn state_of(&self, robot: RobotId) -> Option<&State> {
-        let is_known = robot.0 < ROBOTS;
-        is_known.then(|| self.0.program(robot.index()).state())
-    }
-
-    fn pose(&self, robot: RobotId) -> Option<Pose> {
-        self.0.robots.get(robot.index())?;
-        let position = self.0.position(robot.index());
-        Some(Pose {
-            position,
-            ..Pose::default()
-        })
-    }
-
-    fn velocity(&self, robot: RobotId) -> Option<Point> {
-        self.0.robots.get(robot.index()).map(|_| Point::ZERO)
-    }
-
-    fn has_finished(&self, robot: RobotId) -> bool {
-        self.0
-            .robots
-            .get(robot.index())
-            .is_some_and(|unit| unit.node.condition().finished)
-    }
-
-    fn is_up(&self, robot: RobotId) -> bool {
-        self.0
-            .robots
-            .get(robot.index())
-            .is_some_and(|unit| !unit.node.condition().down)
-    }
-}
 
 /// A run of a program on all robots; if asked for, with copies in their places halfway.
 fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
@@ -66,8 +26,7 @@ fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
         world.step();
         garble(&mut world, &mut random);
         order(&mut world, &mut random);
-        let seen = Seen(&world, (0..ROBOTS).map(RobotId).collect());
-        judged += &format!("{:?}", judge.observe(world.now, &seen));
+        judged += &format!("{:?}", judge.observe(world.now, &Seen::new(&world)));
     }
     (world, judged)
 }

@@ -122,6 +122,19 @@ fn whole_lists() {
         list("list_slice b0 r0 r1", [1, 3, 0], lists),
         Ok(vec![1, 2])
     );
+    assert_eq!(
+        list(
+            "list_sort_by b0 b1 type1",
+            [0; 3],
+            [&[7, 5, 6, 8], &[2, 1, 2, 1]]
+        ),
+        Ok(vec![5, 8, 7, 6])
+    );
+    assert_eq!(
+        list("list_sort_by b0 b1 type1", [0; 3], lists),
+        Ok(vec![1, 3]),
+        "only the first two have a key"
+    );
     assert_eq!(list("list_slice b0 r0 r1", [4, 4, 0], lists), Ok(vec![]));
     assert_eq!(
         list("list_slice b0 r0 r1", [2, 5, 0], lists),

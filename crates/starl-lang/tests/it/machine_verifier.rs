@@ -107,6 +107,8 @@ fn types_of_objects() {
         "list_set b1 r0 r0 b0",
         "list_append b0 b1",
         "list_sort b0 type5",
+        "list_sort_by b0 b1 type1",
+        "list_sort_by b1 b0 type1",
         "list_reverse b1",
         "sum_float r1 b0",
         "sum_int r1 b1",

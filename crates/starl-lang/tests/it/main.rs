@@ -71,6 +71,7 @@ mod robot_offers_what_the_language_has;
 mod robot_parameters;
 mod robot_properties;
 mod robot_properties_allow_for_faults;
+mod robot_properties_read_shared_variables;
 mod robot_resets_where_a_check_is_false;
 mod robot_restarts;
 mod robot_runs_atomic_actions;

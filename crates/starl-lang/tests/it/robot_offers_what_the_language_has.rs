@@ -278,6 +278,8 @@ fn nothing_else_is_offered() {
     known.extend(shared.map(|name| format!("Linearizable.{name}")));
     let asked = ["all", "position", "heading", "velocity", "finished", "up"];
     known.extend(asked.map(|name| format!("robot.{name}")));
+    let copies = ["read", "element", "all"];
+    known.extend(copies.map(|name| format!("shared.{name}")));
     // Nor has what the start of a program asks for stable variables.
     known.extend(["saved".into(), "reset".into()]);
     assert_eq!(functions().collect::<BTreeSet<_>>(), known);

@@ -157,7 +157,14 @@ impl SharedMemory {
     /// value is known.
     pub fn read(&self, variable: &str) -> Option<&[u8]> {
         let written = self.store.get(variable, None).map(|element| &element.value);
-        Some(written.or_else(|| self.initial.get(variable))?)
+        written
+            .map(|value| &value[..])
+            .or_else(|| self.initial(variable))
+    }
+
+    /// The value of a multi-writer variable before any write, if this robot has said what it is.
+    pub fn initial(&self, variable: &str) -> Option<&[u8]> {
+        Some(self.initial.get(variable)?)
     }
 
     /// Writes this robot's element of a single-writer array. Writing the value that it has already does

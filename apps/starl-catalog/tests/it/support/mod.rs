@@ -57,3 +57,18 @@ impl<'a> Case<'a> {
         run
     }
 }
+
+/// The number of lines of code of a program, as `tools/program_lengths.py` counts them: without comments, parameters
+/// and properties.
+pub fn code_lines(program: &str) -> usize {
+    let mut counts = true;
+    let mut is_counted = |line: &&str| {
+        let line = line.split("//").next().unwrap_or_default().trim_end();
+        if !line.is_empty() && !line.starts_with(' ') {
+            let left_out = ["param ", "invariant", "always", "eventually"];
+            counts = !left_out.iter().any(|word| line.starts_with(word));
+        }
+        counts && !line.is_empty()
+    };
+    program.lines().filter(|line| is_counted(line)).count()
+}

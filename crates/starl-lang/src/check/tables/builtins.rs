@@ -92,7 +92,7 @@ builtins! {
     Floor = "floor(x: Float) -> Int" Pure "The greatest Int not above `x`."
     Ceil = "ceil(x: Float) -> Int" Pure "The smallest Int not below `x`."
     ToFloat = "Float(x: Int) -> Float" Pure "The Float nearest to the Int."
-    ToInt = "Int(x: Float) -> Int" Pure "The Float without its fraction; a run-time error if out of range."
+    ToInt = "Int(x: F) -> Int" Pure "The Float without its fraction, a run-time error if out of range; or the number of the robot, as in `robot_name`: robots are numbered from 0 in the order of the scenario."
     ToString = "String(x: Any) -> String" Pure "The value as text."
 
     // Geometry.

@@ -97,6 +97,12 @@ impl Method {
         (METHODS.iter().copied()).filter(move |method| method.receiver_name() == receiver)
     }
 
+    /// Whether it adds an element, so that it may be called on the value of a missing key.
+    #[must_use]
+    pub fn adds(self) -> bool {
+        matches!(self, Self::ListAdd | Self::SetAdd)
+    }
+
     /// Its signature.
     #[must_use]
     pub fn signature(self) -> Signature {

@@ -3,7 +3,7 @@
 //! `name(parameters) -> result` is called, `name: type` is used by its name alone. A parameter written `name?: type`
 //! may be omitted. `...` as the last parameter means any number of values, `name = ...` for any number of named ones. A
 //! capital letter is any type, the same throughout: `T` any at all, `N` Int or Float, `M` also Duration and Time, `O`
-//! whatever `<` compares. `Message` is any message, `Model` a literal text with the path of a model's file, `Any` any
+//! whatever `<` compares, `F` Float or RobotId. `Message` is any message, `Model` a literal text with the path of a model's file, `Any` any
 //! value. `List[T].add(x: T)` is a method of lists.
 
 use alloc::boxed::Box;

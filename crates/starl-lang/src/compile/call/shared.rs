@@ -23,38 +23,51 @@ pub(in crate::compile) fn shared_kind(shared: &ir::Shared) -> &'static str {
 }
 
 impl<'p> Body<'_, 'p> {
-    fn shared_function(&self, id: SharedId, member: &str, is_query: bool) -> HostFunction {
+    fn shared_function(&self, id: SharedId, member: &str) -> HostFunction {
         let kind = shared_kind(&self.unit.program[id]);
-        HostFunction {
-            name: format!("{kind}.{member}"),
-            is_query,
-            labels: Vec::new(),
-        }
+        HostFunction::effect(&format!("{kind}.{member}"))
     }
 
     fn shared_instance(&self, id: SharedId) -> Argument<'p> {
         Argument::Int((self.unit.program.bindings.len() + id.index()) as u32)
     }
 
+    /// A question about a shared variable, and its first arguments; in properties it is about a robot's copy.
+    fn shared_query(
+        &self,
+        id: SharedId,
+        member: &str,
+        of: Option<&'p Expression>,
+    ) -> (HostFunction, Vec<Argument<'p>>) {
+        let mut arguments = Vec::from([self.shared_instance(id)]);
+        let Some(robot) = of else {
+            let import = HostFunction {
+                is_query: true,
+                ..self.shared_function(id, member)
+            };
+            return (import, arguments);
+        };
+        arguments.push(Argument::Value(robot));
+        let import = HostFunction {
+            labels: Vec::from([self.unit.program[id].name.clone()]),
+            ..HostFunction::query(&format!("shared.{member}"))
+        };
+        (import, arguments)
+    }
+
     /// `name[robot]` of a single-writer variable.
     pub fn shared_element(
         &mut self,
         id: SharedId,
-        robot: &'p Expression,
+        [robot, of]: [Option<&'p Expression>; 2],
         to: Slot,
         ty: &Type,
         is_fresh: bool,
     ) -> Compiled {
-        let import = self.shared_function(id, "element", true);
-        let arguments = [self.shared_instance(id), Argument::Value(robot)];
-        self.read_optional(
-            import,
-            &arguments,
-            &self.unit.program[id].ty,
-            to,
-            ty,
-            is_fresh,
-        )
+        let (import, mut arguments) = self.shared_query(id, "element", of);
+        arguments.extend(robot.map(Argument::Value));
+        let inner = &self.unit.program[id].ty;
+        self.read_optional(import, &arguments, inner, to, ty, is_fresh)
     }
 
     /// Asks for an optional of a type. If that is an optional itself, the two are one to the program.
@@ -84,17 +97,29 @@ impl<'p> Body<'_, 'p> {
     }
 
     /// All of a single-writer variable.
-    pub fn shared_map(&mut self, id: SharedId, to: Slot, ty: &Type, is_fresh: bool) -> Compiled {
-        let import = self.shared_function(id, "all", true);
-        let arguments = [self.shared_instance(id)];
+    pub fn shared_map(
+        &mut self,
+        id: SharedId,
+        of: Option<&'p Expression>,
+        to: Slot,
+        ty: &Type,
+        is_fresh: bool,
+    ) -> Compiled {
+        let (import, arguments) = self.shared_query(id, "all", of);
         self.host(import, &arguments, ty, to, is_fresh)
     }
 
     /// A multi-writer variable. With an initial value it has one always.
-    pub fn shared(&mut self, id: SharedId, to: Slot, ty: &Type, is_fresh: bool) -> Compiled {
+    pub fn shared(
+        &mut self,
+        id: SharedId,
+        of: Option<&'p Expression>,
+        to: Slot,
+        ty: &Type,
+        is_fresh: bool,
+    ) -> Compiled {
         let shared: &'p ir::Shared = &self.unit.program[id];
-        let import = self.shared_function(id, "read", true);
-        let arguments = [self.shared_instance(id)];
+        let (import, arguments) = self.shared_query(id, "read", of);
         if shared.initial.is_none() {
             return self.read_optional(import, &arguments, &shared.ty, to, ty, is_fresh);
         }
@@ -113,7 +138,7 @@ impl<'p> Body<'_, 'p> {
 
     /// Passes the value of a shared variable to the host, by one of its members.
     pub fn write_shared(&mut self, id: SharedId, member: &str, value: &'p Expression) -> Compiled {
-        let import = self.shared_function(id, member, false);
+        let import = self.shared_function(id, member);
         let arguments = [self.shared_instance(id), Argument::Value(value)];
         let nowhere = self.take(Size::NONE)?;
         self.host(import, &arguments, &Type::Nothing, nowhere, false)
@@ -122,7 +147,7 @@ impl<'p> Body<'_, 'p> {
     /// Passes the value of a shared variable that was changed in registers to the host.
     pub fn write_back_shared(&mut self, id: SharedId, value: Slot) -> Compiled {
         let ty = &self.unit.program[id].ty;
-        let import = self.shared_function(id, "write", false);
+        let import = self.shared_function(id, "write");
         let mark = self.mark();
         let size = self.size(ty);
         let first = self.take(Size::SCALAR.plus(size))?;

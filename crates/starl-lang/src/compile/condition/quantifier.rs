@@ -80,6 +80,10 @@ impl<'p> Body<'_, 'p> {
             RobotMember::Finished => "robot.finished",
             RobotMember::Up => "robot.up",
             RobotMember::Id => return self.into(robot, to, is_fresh),
+            RobotMember::Shared(id) if self.unit.program[id].is_single_writer => {
+                return self.shared_map(id, Some(robot), to, ty, is_fresh);
+            }
+            RobotMember::Shared(id) => return self.shared(id, Some(robot), to, ty, is_fresh),
             RobotMember::Variable(_) | RobotMember::Parameter(_) => return Err(self.broken()),
         };
         self.ask(name, &[robot], to, ty, is_fresh)

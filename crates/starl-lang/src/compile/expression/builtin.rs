@@ -49,7 +49,10 @@ impl<'p> Body<'_, 'p> {
                 });
                 Ok(())
             }
-            Builtin::ToInt => self.rounded(arguments, Rounding::Truncate, to),
+            Builtin::ToInt => match self.given(arguments, 0)? {
+                robot if robot.ty == Type::Robot => self.into(robot, to, is_fresh),
+                _ => self.rounded(arguments, Rounding::Truncate, to),
+            },
             Builtin::Round => self.rounded(arguments, Rounding::Nearest, to),
             Builtin::Floor => self.rounded(arguments, Rounding::Floor, to),
             Builtin::Ceil => self.rounded(arguments, Rounding::Ceiling, to),

@@ -2,6 +2,7 @@
 
 use crate::compile::body::{Body, Slot};
 use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
 use crate::ir::{Comprehension, Element, Expression, Type};
 use crate::machine::Instruction;
 
@@ -78,8 +79,32 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// `[f(x) for x in xs if c]`
+    /// `[f(x) for x in xs if c by k]`
     pub fn comprehension(&mut self, made: &'p Comprehension, ty: &'p Type, to: Slot) -> Compiled {
+        let Some(key) = &made.key else {
+            return self.collect(made, ty, to, None);
+        };
+        let of_keys = Type::list(key.ty.clone());
+        let keys = self.take(Size::OBJECT)?;
+        self.clear(keys, &of_keys)?;
+        self.collect(made, ty, to, Some((key, keys, &of_keys)))?;
+        let kind = self.object_type(&of_keys)?;
+        self.emit(Instruction::ListSortBy {
+            list: to.object_in_out(),
+            keys: keys.object_in(),
+            kind,
+        });
+        Ok(())
+    }
+
+    /// The elements in the order of the source, and the list of their keys.
+    fn collect(
+        &mut self,
+        made: &'p Comprehension,
+        ty: &'p Type,
+        to: Slot,
+        keys: Option<(&'p Expression, Slot, &Type)>,
+    ) -> Compiled {
         self.clear(to, ty)?;
         self.for_each(&made.collection, made.variables, false, |body| {
             let next = body.label();
@@ -89,6 +114,9 @@ impl<'p> Body<'_, 'p> {
             match &made.element {
                 Element::One(element) => body.add(to, ty, element)?,
                 Element::Entry(key, value) => body.put(to, ty, key, value)?,
+            }
+            if let Some((key, keys, of_keys)) = keys {
+                body.add(keys, of_keys, key)?;
             }
             body.place(next);
             Ok(())

@@ -213,11 +213,12 @@ impl<'p> Body<'_, 'p> {
                 member,
                 arguments,
             } => self.member(*binding, member, arguments, to, ty, is_fresh),
-            ExpressionKind::SharedElement { shared, robot } => {
-                self.shared_element(*shared, robot, to, ty, is_fresh)
+            ExpressionKind::SharedElement { shared, robot, of } => {
+                let robots = [Some(&**robot), of.as_deref()];
+                self.shared_element(*shared, robots, to, ty, is_fresh)
             }
-            ExpressionKind::SharedMap(shared) => self.shared_map(*shared, to, ty, is_fresh),
-            ExpressionKind::Shared(shared) => self.shared(*shared, to, ty, is_fresh),
+            ExpressionKind::SharedMap(shared) => self.shared_map(*shared, None, to, ty, is_fresh),
+            ExpressionKind::Shared(shared) => self.shared(*shared, None, to, ty, is_fresh),
             // Literals are folded, variables and their parts are located.
             _ => Err(self.broken()),
         }

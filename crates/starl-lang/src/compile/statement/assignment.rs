@@ -19,12 +19,12 @@ impl<'p> Body<'_, 'p> {
             (Some(Step::Key(key)), Some(Prepared::Entry(entry))) => {
                 let at = entry.at(self.size(&key.ty));
                 self.into(value, at, true)?;
-                let (way, _) = self.go(place, &prepared, place.path.len() - 1)?;
+                let (way, _) = self.go(place, &prepared, place.path.len() - 1, false)?;
                 self.put_entry(way, *entry)?;
             }
             (Some(Step::Index(_)), Some(Prepared::Index(index))) => {
                 let element = self.value(value)?;
-                let (mut way, _) = self.go(place, &prepared, place.path.len() - 1)?;
+                let (mut way, _) = self.go(place, &prepared, place.path.len() - 1, false)?;
                 let list = self.container(&mut way)?;
                 self.at(place.span, |body| {
                     body.emit(Instruction::ListSet {
@@ -67,7 +67,7 @@ impl<'p> Body<'_, 'p> {
             self.into(value, made, true)?;
             made
         };
-        let (way, ty) = self.go(place, prepared, place.path.len())?;
+        let (way, ty) = self.go(place, prepared, place.path.len(), false)?;
         self.at(place.span, |body| body.write(way.at, made, ty))?;
         self.write_back(way.back)
     }
@@ -113,7 +113,8 @@ impl<'p> Body<'_, 'p> {
     ) -> Compiled {
         let mark = self.mark();
         let prepared = self.prepare(place)?;
-        let (mut way, ty) = self.go(place, &prepared, place.path.len())?;
+        let adds = matches!(operator, Operator::Add | Operator::Subtract);
+        let (mut way, ty) = self.go(place, &prepared, place.path.len(), adds)?;
         if matches!(ty, Type::String | Type::List(_)) {
             // The appended value may be a part of the variable itself, so it is read before the variable changes.
             let object = self.container(&mut way)?;

@@ -23,7 +23,7 @@ impl<'p> Body<'_, 'p> {
         let values: Vec<Slot> = (arguments.iter())
             .map(|argument| self.value(argument))
             .collect::<Compiled<_>>()?;
-        let (mut way, ty) = self.go(place, &prepared, place.path.len())?;
+        let (mut way, ty) = self.go(place, &prepared, place.path.len(), method.adds())?;
         let object = self.container(&mut way)?;
         self.change_object(object, ty, method, &values)?;
         self.write_back(way.back)?;

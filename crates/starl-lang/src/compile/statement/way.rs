@@ -88,12 +88,14 @@ impl<'p> Body<'_, 'p> {
         }
     }
 
-    /// Follows this number of steps of the path; returns the type of the part too.
+    /// Follows this number of steps of the path; returns the type of the part too. If `adds`, a missing key at the end
+    /// has the default value of its type.
     pub(super) fn go(
         &mut self,
         place: &'p Place,
         prepared: &[Prepared],
         steps: usize,
+        adds: bool,
     ) -> Compiled<(Way<'p>, &'p Type)> {
         let ty = self.root_type(&place.root)?;
         let mut way = Way {
@@ -106,22 +108,24 @@ impl<'p> Body<'_, 'p> {
             Root::Variable(id) => Location::State(self.unit.variable(*id)),
             Root::Shared(id) => {
                 let slot = self.take_for(ty)?;
-                self.at(place.span, |body| body.shared(*id, slot, ty, true))?;
+                self.at(place.span, |body| body.shared(*id, None, slot, ty, true))?;
                 way.back.push(WriteBack::Shared(*id, slot));
                 Location::Registers(slot)
             }
             Root::OwnElement(_) | Root::Error => return Err(self.broken()),
         };
-        for (step, prepared) in place.path.iter().zip(prepared).take(steps) {
+        let path = place.path.iter().zip(prepared).take(steps);
+        for (number, (step, prepared)) in path.enumerate() {
             let outer = core::mem::replace(&mut self.span, place.span);
-            self.step(&mut way, step, *prepared)?;
+            let adds = adds && number + 1 == steps;
+            self.step(&mut way, step, *prepared, adds)?;
             self.span = outer;
         }
         let ty = way.ty;
         Ok((way, ty))
     }
 
-    fn step(&mut self, way: &mut Way<'p>, step: &Step, prepared: Prepared) -> Compiled {
+    fn step(&mut self, way: &mut Way<'p>, step: &Step, prepared: Prepared, adds: bool) -> Compiled {
         let next = self.step_type(way.ty, step)?;
         match (step, prepared) {
             (Step::Field(field), _) => {
@@ -147,20 +151,49 @@ impl<'p> Body<'_, 'p> {
                 let kind = self.object_type(way.ty)?;
                 let map = self.container(way)?;
                 let value = entry.at(self.size(&key.ty));
-                self.emit(Instruction::MapAt {
-                    map: ObjectIn(map.0),
-                    scalars: entry.block(),
-                    objects: entry.objects(),
-                    to: value.block(),
-                    to_objects: value.objects(),
-                    kind,
-                });
+                if adds {
+                    self.value_or_default(ObjectIn(map.0), entry, value, next, kind)?;
+                } else {
+                    self.emit(Instruction::MapAt {
+                        map: ObjectIn(map.0),
+                        scalars: entry.block(),
+                        objects: entry.objects(),
+                        to: value.block(),
+                        to_objects: value.objects(),
+                        kind,
+                    });
+                }
                 way.back.push(WriteBack::Map(map, entry, kind));
                 way.at = Location::Registers(value);
             }
             _ => return Err(self.broken()),
         }
         way.ty = next;
+        Ok(())
+    }
+
+    /// The value of a key, or zero: the default value of each type to which something can be added.
+    fn value_or_default(
+        &mut self,
+        map: ObjectIn,
+        key: Slot,
+        to: Slot,
+        ty: &Type,
+        kind: operand::Type,
+    ) -> Compiled {
+        let mark = self.mark();
+        let size = self.size(ty);
+        let optional = self.take(Size::SCALAR.plus(size))?;
+        self.emit(Instruction::MapGet {
+            map,
+            scalars: key.block(),
+            objects: key.objects(),
+            to: optional.block(),
+            to_objects: optional.objects(),
+            kind,
+        });
+        self.move_value(to, optional.at(Size::SCALAR), size);
+        self.release(mark);
         Ok(())
     }
 

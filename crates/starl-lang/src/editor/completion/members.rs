@@ -9,7 +9,7 @@ use super::super::words;
 use super::candidates::{COMMON, Candidates, OWN};
 use super::{Call, Completion};
 use crate::check::{Libraries, Method, PRIMITIVES, Symbol};
-use crate::ir::{BindingId, ParameterId, RecordId, Type, VariableId};
+use crate::ir::{BindingId, ParameterId, RecordId, SharedId, Type, VariableId};
 
 impl Candidates<'_> {
     /// The completions after the dot of a value.
@@ -43,6 +43,9 @@ impl Candidates<'_> {
                 }
                 for number in 0..program.parameters.len() {
                     self.symbol(Symbol::Parameter(ParameterId(number as u32)), OWN);
+                }
+                for number in 0..program.shared.len() {
+                    self.symbol(Symbol::Shared(SharedId(number as u32)), OWN);
                 }
                 self.robot_members();
             }

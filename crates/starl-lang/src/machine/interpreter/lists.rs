@@ -219,6 +219,25 @@ impl View<'_> {
         self.rearrange(list, |list| (list.sorted(layout, types), sorting(list)))
     }
 
+    pub fn list_sort_by(
+        &mut self,
+        list: ObjectInOut,
+        keys: ObjectIn,
+        kind: Type,
+    ) -> Result<u64, Fault> {
+        let layout = &self.parts(kind)?.element;
+        let types = &self.program.parts;
+        let keys = self.read(keys)?.clone();
+        self.rearrange(list, |list| {
+            let (order, cost) = match keys.list() {
+                Some(keys) => (keys.order(layout, types), sorting(keys)),
+                None => Default::default(),
+            };
+            let arranged = list.arranged(order.into_iter());
+            (arranged, cost + shift(list.bytes()))
+        })
+    }
+
     fn rearrange(
         &mut self,
         list: ObjectInOut,

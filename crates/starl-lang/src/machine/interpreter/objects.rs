@@ -115,6 +115,7 @@ impl View<'_> {
             ListAppend { list, from } => self.list_append(list, from),
             ListReverse { list } => self.list_reverse(list),
             ListSort { list, kind } => self.list_sort(list, kind),
+            ListSortBy { list, keys, kind } => self.list_sort_by(list, keys, kind),
             ListSlice { list, first, last } => self.list_slice(list, first, last),
             SumInt { to, list } => self.sum_int(to, list),
             SumFloat { to, list } => self.sum_float(to, list),

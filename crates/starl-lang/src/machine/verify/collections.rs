@@ -70,6 +70,11 @@ impl Context<'_> {
                 same(self.object(list.0)?, kind.0)?;
                 self.list_parts(kind.0).map(|_| ())
             }
+            ListSortBy { list, keys, kind } => {
+                self.list_parts(self.object(list.0)?)?;
+                same(self.object(keys.0)?, kind.0)?;
+                self.list_parts(kind.0).map(|_| ())
+            }
             SumInt { list, .. } => self.is_list_of(list.0, &Type::Int),
             SumFloat { list, .. } => self.is_list_of(list.0, &Type::Float),
             ListOfSet { to, set, kind } => {

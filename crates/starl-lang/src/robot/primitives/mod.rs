@@ -17,7 +17,7 @@ mod shared;
 mod watch;
 
 pub use attended::{Attended, BoundPrimitive};
-pub(super) use shared::give;
+pub(super) use shared::{candidates, give, give_all};
 
 use super::arguments::{Arguments, Called};
 use super::code::Instance;

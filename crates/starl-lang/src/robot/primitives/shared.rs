@@ -23,10 +23,7 @@ pub struct SingleWriter;
 
 /// A variable that all robots write.
 #[derive(Clone, Debug)]
-pub struct MultiWriter {
-    /// The value before any write.
-    initial: Option<Payload>,
-}
+pub struct MultiWriter;
 
 /// The consistency, none for the memory's own.
 pub(super) const CONSISTENCY: &[Shape] = &[Shape::Optional(&Shape::Text)];
@@ -103,9 +100,21 @@ pub(in crate::robot) fn give(
     Ok(cost)
 }
 
+/// The written value of a multi-writer variable and the initial one: the first that is of the variable's type counts.
+pub(in crate::robot) fn candidates<'m>(
+    memory: &'m SharedMemory,
+    variable: &str,
+) -> [Option<&'m [u8]>; 2] {
+    [memory.read(variable), memory.initial(variable)]
+}
+
 /// All elements that are known as a map.
-fn give_all(context: &mut Context<'_, '_>, call: &mut HostCall<'_>) -> Called {
-    let program = context.code.program();
+pub(in crate::robot) fn give_all(
+    program: &Program,
+    memory: &SharedMemory,
+    variable: &str,
+    call: &mut HostCall<'_>,
+) -> Called {
     let [Type::Object(index)] = call.import.results[..] else {
         return Err("all elements are read as a map".into());
     };
@@ -116,7 +125,6 @@ fn give_all(context: &mut Context<'_, '_>, call: &mut HostCall<'_>) -> Called {
     let kinds = core::slice::from_ref(kind);
     let mut owners: Vec<RobotId> = Vec::new();
     let mut values = List::new(&Layout::of(kinds));
-    let (memory, _, variable) = memory(context)?;
     for (owner, bytes) in memory.all(variable) {
         let Some((scalars, objects)) = program.decode(kinds, bytes) else {
             continue;
@@ -168,7 +176,11 @@ impl Kind for SingleWriter {
             "all",
             &[],
             Shape::Map(&Shape::Robot, &Shape::Any),
-            |_, context, call| give_all(context, call),
+            |_, context, call| {
+                let program = context.code.program();
+                let (memory, _, variable) = memory(context)?;
+                give_all(program, memory, variable, call)
+            },
         ),
     ];
 
@@ -198,9 +210,8 @@ impl Kind for MultiWriter {
     const NAME: &'static str = "MultiWriter";
     const CONSTRUCTOR: &'static [Shape] = CONSISTENCY;
     const MEMBERS: &'static [Member<MultiWriter>] = &[
-        method("initialize", &[Shape::Any], None, |own, context, call| {
+        method("initialize", &[Shape::Any], None, |_, context, call| {
             let value = value(context, call)?;
-            own.initial = Some(value.clone());
             let (memory, robot, variable) = memory(context)?;
             memory.initialize(robot, variable, value);
             Ok(10)
@@ -214,11 +225,10 @@ impl Kind for MultiWriter {
             "read",
             &[],
             Shape::Optional(&Shape::Any),
-            |own, context, call| {
+            |_, context, call| {
                 let program = context.code.program();
                 let (memory, _, variable) = memory(context)?;
-                let initial = own.initial.as_deref();
-                give(program, call, &[memory.read(variable), initial])
+                give(program, call, &candidates(memory, variable))
             },
         ),
     ];
@@ -229,7 +239,7 @@ impl Kind for MultiWriter {
         arguments: &mut Arguments<'_>,
     ) -> Result<MultiWriter, Cow<'static, str>> {
         set_consistency(context, arguments)?;
-        Ok(MultiWriter { initial: None })
+        Ok(MultiWriter)
     }
 
     const NEEDS: Needs = Needs {

@@ -4,6 +4,7 @@
 //! for a consequence, and those that violate the property.
 
 use super::Excuse;
+use super::reads::Reads;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use starl_core::{RobotId, Time};
@@ -19,8 +20,8 @@ pub const CLOSED: u64 = u64::MAX;
 /// The history of one property.
 #[derive(Clone, Debug, Default)]
 pub struct History {
-    /// The variables that it reads, by their places in the program.
-    pub reads: Vec<usize>,
+    /// The variables that it reads.
+    pub reads: Reads,
     /// Whether it was ever judged.
     pub judged: bool,
     /// Rows for which it was violated.

@@ -4,7 +4,8 @@
 use super::evaluation::Evaluation;
 use super::history::{History, Row, UNKNOWN};
 use super::observables::{Counted, PropertyHost};
-use super::violation::{Violation, read_variables};
+use super::reads::Reads;
+use super::violation::Violation;
 use super::{Excuse, Fleet};
 use crate::machine::{Claim, Property};
 use crate::robot::code::Code;
@@ -49,7 +50,7 @@ impl Judge {
     pub fn new(code: &Code) -> Judge {
         let bytecode = code.program().bytecode();
         let history = |property: &Property| History {
-            reads: read_variables(bytecode, property.claim),
+            reads: Reads::of(bytecode, property.claim),
             ..History::default()
         };
         Judge {

@@ -24,16 +24,21 @@ mod evaluation;
 mod history;
 mod judge;
 mod observables;
+mod reads;
+mod shared;
 mod violation;
 
 pub use condition::Condition;
 pub use judge::{Judge, Standing};
-pub(super) use observables::{OBSERVABLES, Run};
+pub(super) use observables::Run;
 pub use violation::{Reason, Violation};
 
 use crate::machine::State;
+use observables::{OBSERVABLES, Observable};
+use shared::SHARED;
 use starl_core::motion::Obstacles;
 use starl_core::{Duration, Point, Pose, RobotId, WayPoint};
+use starl_primitives::SharedMemory;
 
 /// The reason for which a false property is excused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,6 +57,11 @@ pub enum Excuse {
 /// Meanwhile each robot is activated, finds that an invariant of its variables is false, and restarts.
 pub const RECOVERY: Duration = Duration::from_seconds(1);
 
+/// All values that properties can read.
+pub(super) fn observables() -> impl Iterator<Item = &'static Observable> {
+    OBSERVABLES.iter().chain(SHARED)
+}
+
 /// The true state of robots that run a program.
 pub trait Fleet {
     /// The robots that run the program, in ascending order.
@@ -60,6 +70,12 @@ pub trait Fleet {
     /// The variables of a robot; for one that is down, its last variables. None if it has not started or does not run
     /// the program.
     fn state_of(&self, robot: RobotId) -> Option<&State>;
+
+    /// The robot's copies of the program's shared variables; none if they are not known here.
+    fn memory(&self, robot: RobotId) -> Option<&SharedMemory> {
+        let _ = robot;
+        None
+    }
 
     /// A number that changes whenever the robot's variables change, if there is one: a robot whose number is unchanged
     /// need not be judged again.

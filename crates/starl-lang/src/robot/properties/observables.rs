@@ -56,7 +56,8 @@ pub struct Observable {
 /// The function of an observable.
 pub type Run = fn(&mut PropertyHost<'_>, &mut HostCall<'_>) -> Called;
 
-const fn observable(
+/// An observable of this name.
+pub(super) const fn observable(
     name: &'static str,
     parameters: &'static [Shape],
     result: Shape,
@@ -182,7 +183,7 @@ const BLOCKED: f64 = 0.6;
 /// the wreck.
 const PINNED: f64 = 0.5;
 
-const NOT_KNOWN: &str = "this is not known where properties are judged";
+pub(super) const NOT_KNOWN: &str = "this is not known where properties are judged";
 
 fn unknown(robot: RobotId) -> Cow<'static, str> {
     alloc::format!("there is no robot {robot}").into()

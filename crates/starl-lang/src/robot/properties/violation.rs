@@ -1,7 +1,8 @@
 //! Violations of properties.
 
 use super::observables::PropertyHost;
-use crate::machine::{Bytecode, Claim, Instruction, Layout, Property, Value};
+use super::reads::{Reads, first_function};
+use crate::machine::{Property, Value};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
@@ -64,7 +65,7 @@ impl Violation {
         (index, property): (usize, &Property),
         row: &[RobotId],
         reason: Reason,
-        reads: &[usize],
+        reads: &Reads,
     ) -> Violation {
         let program = host.code.program();
         let functions = &program.bytecode().functions;
@@ -90,74 +91,13 @@ impl Violation {
 }
 
 impl Seen {
-    fn of(host: &PropertyHost<'_>, robot: RobotId, reads: &[usize]) -> Seen {
-        let program = host.code.program();
-        let state = host.fleet.state_of(robot);
-        let variables = state.into_iter().flat_map(|state| program.values(state));
-        let read = |index: &usize| reads.is_empty() || reads.contains(index);
-        let names: Vec<&str> = program
-            .bytecode()
-            .variables
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| read(index))
-            .map(|(_, variable)| &variable.name[..])
-            .collect();
+    fn of(host: &PropertyHost<'_>, robot: RobotId, reads: &Reads) -> Seen {
         Seen {
             robot,
             position: host.fleet.pose(robot).map(|pose| pose.position),
-            variables: variables
-                .filter(|(name, _)| names.contains(name))
-                .map(|(name, value)| (name.into(), value))
-                .collect(),
+            variables: reads.values(host.code.program(), host.fleet, robot),
         }
     }
-}
-
-fn first_function(claim: Claim) -> u32 {
-    match claim {
-        Claim::Always(holds)
-        | Claim::Eventually { holds, .. }
-        | Claim::EventuallyAlways { holds, .. } => holds,
-        Claim::LeadsTo { cause, .. } => cause,
-    }
-}
-
-/// The variables that a claim reads, as indices in the program.
-pub(super) fn read_variables(bytecode: &Bytecode, claim: Claim) -> Vec<usize> {
-    let second = match claim {
-        Claim::LeadsTo { consequence, .. } => Some(consequence),
-        _ => None,
-    };
-    let functions = [Some(first_function(claim)), second];
-    let functions = functions.into_iter().flatten();
-    let functions = functions.filter_map(|index| bytecode.functions.get(index as usize));
-    let instructions = functions.flat_map(|f| {
-        let range = f.entry as usize..f.end as usize;
-        bytecode.code.get(range).unwrap_or_default()
-    });
-    let (mut scalars, mut objects) = (Vec::new(), Vec::new());
-    for instruction in instructions {
-        match instruction {
-            Instruction::LoadOther { variable, .. }
-            | Instruction::LoadOtherPoint { variable, .. } => scalars.push(variable.0 as usize),
-            Instruction::LoadOtherObject { variable, .. } => objects.push(variable.0 as usize),
-            _ => {}
-        }
-    }
-    let mut next = (0, 0);
-    let mut read = Vec::new();
-    for (index, variable) in bytecode.variables.iter().enumerate() {
-        let layout = Layout::of([&variable.kind]);
-        let end = (next.0 + layout.scalars.len(), next.1 + layout.objects.len());
-        if scalars.iter().any(|slot| (next.0..end.0).contains(slot))
-            || objects.iter().any(|slot| (next.1..end.1).contains(slot))
-        {
-            read.push(index);
-        }
-        next = end;
-    }
-    read
 }
 
 /// One sentence, then the robots' state: `is not true; robot 3 at (1.00, 2.00, 0.00): index = 4`.

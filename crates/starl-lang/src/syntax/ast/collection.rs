@@ -1,7 +1,7 @@
 //! Lists, sets, maps and what builds them from other collections.
 
-use super::super::SyntaxKind;
-use super::node::{after, before, child, children, nodes, token};
+use super::super::{SyntaxKind, SyntaxToken};
+use super::node::{after, before, child, children, nodes, token, word};
 use super::{Expression, LoopVariables, Name};
 
 nodes! {
@@ -11,7 +11,7 @@ nodes! {
     BraceExpression
     /// `k: v`
     MapEntry
-    /// `for x in xs if condition`
+    /// `for x in xs if condition by key`
     ComprehensionClause
 }
 
@@ -84,5 +84,17 @@ impl ComprehensionClause {
     #[must_use]
     pub fn condition(&self) -> Option<Expression> {
         after(&token(&self.0, SyntaxKind::IfKeyword)?)
+    }
+
+    /// The key by which the elements are sorted, if they are.
+    #[must_use]
+    pub fn key(&self) -> Option<Expression> {
+        after(&self.by()?)
+    }
+
+    /// The word before the key.
+    #[must_use]
+    pub fn by(&self) -> Option<SyntaxToken> {
+        word(&self.0, "by")
     }
 }

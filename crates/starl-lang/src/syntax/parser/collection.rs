@@ -23,7 +23,7 @@ pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
     height + 1
 }
 
-/// `[a, b]` or `[f(x) for x in xs if c]`.
+/// `[a, b]` or `[f(x) for x in xs if c by k]`.
 pub(super) fn list(parser: &mut Parser<'_>) -> Parsed {
     elements(parser, ListExpression, RightBracket, |parser| {
         expression_parsed(parser).height
@@ -73,13 +73,17 @@ fn elements(
     Parsed::new(Shape::Other, height + 1)
 }
 
-/// `for x in xs if c`.
+/// `for x in xs if c by k`.
 fn comprehension(parser: &mut Parser<'_>) -> u32 {
     parser.start(ComprehensionClause);
     parser.bump();
     let mut height = iteration(parser);
     if parser.eat(IfKeyword) {
         height = height.max(condition(parser).height);
+    }
+    if parser.at_word("by") {
+        parser.bump();
+        height = height.max(expression_parsed(parser).height);
     }
     parser.finish();
     height + 1

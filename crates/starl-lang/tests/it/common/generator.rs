@@ -31,6 +31,7 @@ const NAMES: &[&str] = &[
     "wait",
     "role",
     "within",
+    "by",
     "x_1",
     "motion",
     "program",
@@ -355,7 +356,7 @@ impl Generator {
             3 => format!("f({a}, x = {b})"),
             4 => format!("a . field[{a}]"),
             5 => format!("[{a},{b}]"),
-            6 => format!("[f(x) for x in xs if {a}]"),
+            6 => format!("[f(x) for x in xs if {a} by {a}]"),
             7 => format!("{{{a} : {b}}}"),
             8 => format!("{{{a},\n{b},\n}}"),
             9 => {

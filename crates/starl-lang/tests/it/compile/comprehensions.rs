@@ -48,3 +48,40 @@ fn of_the_variable_itself() {
     let told = effect("a: List[Int] = [1, 2]", body).unwrap();
     assert_eq!(told, ["log(\"[3, 4] [3, 4, 3, 4]\")"]);
 }
+
+#[test]
+fn sorted_by_a_key() {
+    values(
+        "
+a: List[Int] = [3, 1, 2, 11]
+s: Set[String] = {\"ab\", \"c\"}
+m: Map[Int, Float] = {1: 0.5, 2: 0.25, 3: 0.5}
+p: List[Point] = [Point(3.0, 0.0), Point(1.0, 0.0)]
+o: List[Int?] = [5, none, 3]",
+        &[
+            ("[x for x in a by -x]", "[11, 3, 2, 1]"),
+            ("[x for x in a if x < 10 by x % 2]", "[2, 3, 1]"),
+            ("[x * 2 for x in a by String(x)]", "[2, 22, 4, 6]"),
+            ("[t for t in s by t.size()]", "[\"c\", \"ab\"]"),
+            ("[k for k, v in m by v]", "[2, 1, 3]"),
+            ("[k for k, v in m by -v].first()", "1"),
+            (
+                "[q.x for q in p by distance(q, Point(0.0, 0.0))]",
+                "[1.0, 3.0]",
+            ),
+            ("[y for x in o if some y = x by y]", "[3, 5]"),
+            (
+                "[[y for y in 0..x by -y] for x in 1..4 by -x]",
+                "[[2, 1, 0], [1, 0], [0]]",
+            ),
+            ("[x for x in a by Float(x) * 0.0 / 0.0]", "[3, 1, 2, 11]"),
+            ("[x for x in a if false by x]", "[]"),
+        ],
+    );
+}
+
+#[test]
+fn by_is_no_reserved_word() {
+    let body = "let by = [3, 1]\nby = [x for x in by by x + by[0]]\nlog(\"{}\", by)";
+    assert_eq!(effect("", body).unwrap(), ["log(\"[1, 3]\")"]);
+}

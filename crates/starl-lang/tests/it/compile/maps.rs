@@ -77,10 +77,41 @@ fn a_key_that_is_not_there() {
         DECLARATIONS,
         &[
             ("log(\"{}\", m[\"z\"])", 1, Fault::KeyMissing),
-            ("m[\"z\"] += 1", 1, Fault::KeyMissing),
+            ("m[\"z\"] *= 1", 1, Fault::KeyMissing),
+            ("e[1].x += 1.0", 1, Fault::KeyMissing),
+            ("n[7][\"x\"] += [1]", 1, Fault::KeyMissing),
+            ("n[1][\"q\"].remove(1)", 1, Fault::KeyMissing),
             ("e[1].x = 1.0", 1, Fault::KeyMissing),
             ("m[k] = 1\nn[7][\"x\"] = []", 2, Fault::KeyMissing),
-            ("n[1][\"q\"].add(1)", 1, Fault::KeyMissing),
         ],
     );
+}
+
+#[test]
+fn adding_to_a_missing_key_starts_from_the_default() {
+    let body = "
+m[\"z\"] += 2
+m[\"z\"] += 2
+m[\"y\"] -= m.size()
+e[7] += Point(1.0, 0.0)
+n[1][\"q\"].add(3)
+n[1][\"r\"] += [4, 5]
+log(\"{} {} {}\", m, e, n)
+let sets: Map[Bool, Set[Int]] = {:}
+for i in 0..4
+    sets[i % 2 == 0].add(i)
+let texts: Map[Int, String] = {:}
+let spans: Map[RobotId, Duration] = {:}
+let rows: List[Map[Int, Int]] = [{:}]
+texts[1] += \"a\"
+spans[me] += 2s
+rows[0][5] += rows[0].size()
+log(\"{} {} {} {}\", sets, texts, spans[me], rows)";
+    let told = effect(DECLARATIONS, body.trim()).unwrap();
+    let expected = [
+        "{\"a\": 1, \"b\": 2, \"y\": -3, \"z\": 4} {7: (1.0, 0.0, 0.0)} \
+         {1: {\"q\": [3], \"r\": [4, 5], \"x\": [1, 2]}}",
+        "{false: {1, 3}, true: {0, 2}} {1: \"a\"} 2s [{5: 0}]",
+    ];
+    assert_eq!(told, expected.map(|text| format!("log({text:?})")));
 }

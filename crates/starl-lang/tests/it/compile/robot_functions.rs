@@ -10,6 +10,9 @@ fn asking() {
         "",
         &[
             ("me", "robot1"),
+            ("Int(me)", "1"),
+            ("Float(Int(me) + 1) * 0.5", "1.0"),
+            ("[Int(r) for r in peers by -Int(r)]", "[2, 1, 0]"),
             ("position", "(1.0, 2.0, 3.0)"),
             ("position.y + velocity.x", "2.25"),
             ("heading", "0.5"),

@@ -176,6 +176,7 @@ function start procedure () () registers 40 objects 20
     list_append b5 b5
     list_reverse b5
     list_sort b5 type1
+    list_sort_by b5 b5 type1
     int r9 2
     list_slice b5 r5 r9
     sum_int r10 b5

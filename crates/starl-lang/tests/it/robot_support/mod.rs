@@ -2,6 +2,7 @@
 //! network under the test's control.
 
 pub mod race;
+pub mod seen;
 
 use starl_core::{
     Agent, Duration, Event, Point, Port, Random, RobotId, Save, Saved, Time, Value, WayPoint,

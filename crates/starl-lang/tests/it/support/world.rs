@@ -74,11 +74,11 @@ impl World {
         let maybe =
             |held: Option<Value>| held.map_or(Value::None, |value| Value::Some(Box::new(value)));
         Some(match (kind, member, rest) {
-            ("MultiWriter" | "Linearizable", "read", _) => Some(maybe(held)),
-            ("SingleWriter", "element", [Value::Robot(robot)]) => {
+            ("MultiWriter" | "Linearizable" | "shared", "read", _) => Some(maybe(held)),
+            ("SingleWriter" | "shared", "element", [.., Value::Robot(robot)]) => {
                 Some(maybe(held.filter(|_| *robot == ME)))
             }
-            ("SingleWriter", "all", _) => {
+            ("SingleWriter" | "shared", "all", _) => {
                 let entries = held.map(|value| (Value::Robot(ME), value));
                 Some(Value::Map(entries.into_iter().collect()))
             }

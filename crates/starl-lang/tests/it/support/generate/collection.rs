@@ -89,8 +89,12 @@ impl Generator<'_> {
         let element = self
             .expression(element, context.exact(), depth)
             .at(power::OR);
+        let order = match self.choices.below(3) {
+            0 if open == "[" => self.sorting(depth),
+            _ => String::new(),
+        };
         self.locals.truncate(mark);
-        Text::atom(format!("{open}{element} {clause}{condition}{close}"))
+        Text::atom(format!("{open}{element} {clause}{condition}{order}{close}"))
     }
 
     fn map_comprehension(
@@ -116,6 +120,14 @@ impl Generator<'_> {
             _ => String::new(),
         };
         (clause, condition)
+    }
+
+    /// ` by key`
+    fn sorting(&mut self, depth: u32) -> String {
+        let ordered = [Type::Int, Type::Float, Type::String, Type::Duration];
+        let key = &ordered[self.choices.below(ordered.len())];
+        let key = self.expression(key, Context::Unknown, depth).at(power::OR);
+        format!(" by {key}")
     }
 
     /// `for x in xs`; the locals stay.

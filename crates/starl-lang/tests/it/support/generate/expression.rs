@@ -229,7 +229,7 @@ impl Generator<'_> {
 
     fn is_single_writer(&self, name: &str) -> bool {
         let mut shared = self.model.shared.iter();
-        shared.any(|shared| shared.is_single_writer && shared.name == name)
+        shared.any(|shared| shared.is_single_writer && name.ends_with(&shared.name))
     }
 
     /// A call of a function that the program declares.

@@ -63,8 +63,11 @@ impl Generator<'_> {
         if place.asks() {
             self.asked(found);
         }
+        if place.sees_shared() || place == Place::Property(true) {
+            self.shared_names("", "me", found);
+        }
         if place.sees_shared() {
-            self.shared_names(found);
+            self.flags(found);
         }
     }
 
@@ -80,6 +83,7 @@ impl Generator<'_> {
         for variable in &self.model.variables {
             found(&format!("{robot}.{}", variable.name), &variable.ty);
         }
+        self.shared_names(&format!("{robot}."), robot, found);
         for (name, ty) in [
             ("position", Type::Point),
             ("heading", Type::Float),
@@ -110,18 +114,23 @@ impl Generator<'_> {
         }
     }
 
-    fn shared_names(&self, found: &mut dyn FnMut(&str, &Type)) {
+    /// Shared variables, in a property those of the robot that the prefix names.
+    fn shared_names(&self, prefix: &str, owner: &str, found: &mut dyn FnMut(&str, &Type)) {
         for shared in &self.model.shared {
-            let (name, ty) = (&shared.name, shared.ty.clone());
+            let (name, ty) = (format!("{prefix}{}", shared.name), shared.ty.clone());
             if shared.is_single_writer {
-                found(&format!("{name}[me]"), &Type::optional(ty.clone()));
-                found(name, &Type::map(Type::Robot, ty));
+                found(&format!("{name}[{owner}]"), &Type::optional(ty.clone()));
+                found(&name, &Type::map(Type::Robot, ty));
             } else if shared.has_initial {
-                found(name, &ty);
+                found(&name, &ty);
             } else {
-                found(name, &Type::optional(ty));
+                found(&name, &Type::optional(ty));
             }
         }
+    }
+
+    /// The flags of primitives.
+    fn flags(&self, found: &mut dyn FnMut(&str, &Type)) {
         for binding in &self.model.bindings {
             if binding.kind == "ReachAvoid" {
                 for flag in ["active", "done", "failed"] {

@@ -94,8 +94,14 @@ impl Generator<'_> {
             6 => self.absolute(&Int, depth),
             7 => self.chosen(&Int, depth),
             8 => {
-                let name = ["round", "floor", "ceil", "Int"][self.choices.below(4)];
-                self.applied(name, &[&Float], depth)
+                let name = ["round", "floor", "ceil", "Int", "Int"][self.choices.below(5)];
+                let takes_robot = name == "Int" && self.place.asks();
+                let of = if takes_robot && self.choices.below(2) == 1 {
+                    &Robot
+                } else {
+                    &Float
+                };
+                self.applied(name, &[of], depth)
             }
             9 => self.method(&Type::list(element), "size", &[], depth),
             10 => self.method(&Type::set(element), "size", &[], depth),

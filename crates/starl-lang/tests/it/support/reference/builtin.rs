@@ -27,6 +27,7 @@ pub fn pure(builtin: Builtin, arguments: Vec<Option<Value>>) -> Outcome<Value> {
         (Builtin::Clamp, Some(value), Some(low), Some(high)) => lesser(greater(value, low)?, high)?,
         (Builtin::ToFloat, Some(Int(value)), ..) => Float(value as f64),
         (Builtin::ToInt, Some(Float(value)), ..) => whole(value)?,
+        (Builtin::ToInt, Some(Value::Robot(number)), ..) => Int(i64::from(number)),
         (Builtin::Round, Some(Float(value)), ..) => whole(math::round(value))?,
         (Builtin::Floor, Some(Float(value)), ..) => whole(math::floor(value))?,
         (Builtin::Ceil, Some(Float(value)), ..) => whole(math::ceil(value))?,

@@ -2,7 +2,7 @@
 
 use super::builtin::{index, method, position, pure, sum};
 use super::operator::apply;
-use super::value::{Value, equal, find, put, set, shown, text, weight};
+use super::value::{Value, equal, find, order, put, set, shown, text, weight};
 use super::{Outcome, Reference, Stop, shared_kind};
 use starl_lang::check::{Builtin, Purity, Signature};
 use starl_lang::ir::*;
@@ -60,13 +60,14 @@ impl<'a> Reference<'a> {
                 let locals = vec![None; constant.locals.len()];
                 self.inside(locals, |reference| reference.evaluate(&constant.value))?
             }
-            Kind::Shared(id) => self.shared(*id)?,
-            Kind::SharedElement { shared, robot } => {
+            Kind::Shared(id) => self.shared(*id, None)?,
+            Kind::SharedElement { shared, robot, of } => {
+                let of = of.as_ref().map(|of| self.evaluate(of)).transpose()?;
                 let robot = self.evaluate(robot)?;
                 let robot = shown(self.program, &Type::Robot, &robot);
-                self.of_shared(*shared, "element", vec![robot], ty)?
+                self.of_shared(*shared, of, "element", Some(robot), ty)?
             }
-            Kind::SharedMap(shared) => self.of_shared(*shared, "all", Vec::new(), ty)?,
+            Kind::SharedMap(shared) => self.of_shared(*shared, None, "all", None, ty)?,
             Kind::Call {
                 function,
                 arguments,
@@ -290,27 +291,33 @@ impl<'a> Reference<'a> {
         Ok(result.flatten().expect("a function returns"))
     }
 
-    pub fn shared(&mut self, id: SharedId) -> Outcome<Value> {
+    pub fn shared(&mut self, id: SharedId, of: Option<Value>) -> Outcome<Value> {
         let shared = &self.program[id];
         let optional = Type::optional(shared.ty.clone());
-        let value = self.of_shared(id, "read", Vec::new(), &optional)?;
+        let value = self.of_shared(id, of, "read", None, &optional)?;
         match (value, &shared.initial) {
             (Value::Optional(Some(value)), Some(_)) => Ok(*value),
             (value, _) => Ok(value),
         }
     }
 
-    fn of_shared(
+    /// Asks for a shared variable; in properties for the copy of a robot.
+    pub fn of_shared(
         &mut self,
         id: SharedId,
+        of: Option<Value>,
         member: &str,
-        arguments: Vec<machine::Value>,
+        owner: Option<machine::Value>,
         ty: &Type,
     ) -> Outcome<Value> {
         let instance = machine::Value::Int(i64::from(id.0) + self.program.bindings.len() as i64);
-        let name = format!("{}.{member}", shared_kind(&self.program[id]));
-        let arguments = std::iter::once(instance).chain(arguments).collect();
-        self.ask(&name, arguments, ty)
+        let kind = match of {
+            Some(_) => "shared",
+            None => shared_kind(&self.program[id]),
+        };
+        let of = of.map(|robot| shown(self.program, &Type::Robot, &robot));
+        let arguments = [Some(instance), of, owner].into_iter().flatten().collect();
+        self.ask(&format!("{kind}.{member}"), arguments, ty)
     }
 
     /// Arguments for the host: an omitted optional one is none.
@@ -443,6 +450,7 @@ impl<'a> Reference<'a> {
     fn comprehension(&mut self, of: &'a Comprehension, ty: &Type) -> Outcome<Value> {
         let items = self.items(&of.collection)?;
         let (mut elements, mut map, mut total) = (Vec::new(), Vec::new(), 0);
+        let mut keys = Vec::new();
         for item in items {
             self.step()?;
             self.bind_loop(of.variables, item);
@@ -464,9 +472,17 @@ impl<'a> Reference<'a> {
                     put(&mut map, key, value);
                 }
             }
+            if let Some(key) = &of.key {
+                keys.push(self.evaluate(key)?);
+            }
             if total > 5000 {
                 return Err(Stop::TooLong);
             }
+        }
+        if of.key.is_some() {
+            let mut rows: Vec<_> = keys.into_iter().zip(elements).collect();
+            rows.sort_by(|(left, _), (right, _)| order(left, right));
+            elements = rows.into_iter().map(|(_, element)| element).collect();
         }
         Ok(match ty {
             Type::List(_) => Value::List(elements),

@@ -220,6 +220,10 @@ impl<'a> Reference<'a> {
             RobotMember::Velocity => "robot.velocity",
             RobotMember::Finished => "robot.finished",
             RobotMember::Up => "robot.up",
+            RobotMember::Shared(id) if self.program[id].is_single_writer => {
+                return self.of_shared(id, Some(robot), "all", None, ty);
+            }
+            RobotMember::Shared(id) => return self.shared(id, Some(robot)),
         };
         let robot = shown(self.program, &Type::Robot, &robot);
         self.ask(name, vec![robot], ty)

@@ -46,7 +46,7 @@ impl<'a> Reference<'a> {
             StatementKind::Assign { place, value } => {
                 let way = self.way(place)?;
                 let value = self.evaluate(value)?;
-                self.change(place, &way, true, |old| {
+                self.change(place, &way, Some(Value::Bool(false)), |old| {
                     *old = value;
                     Ok(())
                 })?;
@@ -58,10 +58,12 @@ impl<'a> Reference<'a> {
             } => {
                 let way = self.way(place)?;
                 let mut whole = self.root(place)?;
-                let old = with_part(&mut whole, &way, false, |part| Ok(part.clone()))?;
+                let adds = matches!(operator, Operator::Add | Operator::Subtract);
+                let start = || adds.then(|| zero(&place.ty));
+                let old = with_part(&mut whole, &way, start(), |part| Ok(part.clone()))?;
                 let value = self.evaluate(value)?;
                 let new = apply(*operator, old, value)?;
-                self.change(place, &way, false, |old| {
+                self.change(place, &way, start(), |old| {
                     *old = new;
                     Ok(())
                 })?;
@@ -168,26 +170,29 @@ impl<'a> Reference<'a> {
                 .clone()
                 .expect("a local has a value"),
             Root::Variable(id) => self.variables[id.index()].clone(),
-            Root::Shared(id) => self.shared(*id)?,
+            Root::Shared(id) => self.shared(*id, None)?,
             Root::OwnElement(_) | Root::Error => panic!("it is written as a whole"),
         })
     }
 
-    /// Changes a part of a variable, or assigns it.
+    /// Changes a part of a variable, or assigns it. A missing key at its end gets `start`, if there is one.
     fn change(
         &mut self,
         place: &'a Place,
         way: &[Way],
-        assigns: bool,
+        start: Option<Value>,
         change: impl FnOnce(&mut Value) -> Outcome<()>,
     ) -> Outcome<()> {
         let program = self.program;
         let mut whole = match &place.root {
             Root::OwnElement(_) => Value::Bool(false),
-            Root::Shared(_) if assigns && way.is_empty() => Value::Bool(false),
+            // It is assigned, not changed.
+            Root::Shared(_) if way.is_empty() && matches!(start, Some(Value::Bool(_))) => {
+                Value::Bool(false)
+            }
             _ => self.root(place)?,
         };
-        with_part(&mut whole, way, assigns, change)?;
+        with_part(&mut whole, way, start, change)?;
         let whole = Self::limited(whole)?;
         match &place.root {
             Root::Local(local) => self.locals[local.index()] = Some(whole),
@@ -215,7 +220,8 @@ impl<'a> Reference<'a> {
         for argument in arguments {
             values.push(self.evaluate(argument)?);
         }
-        self.change(place, &way, false, |value| changed(value, method, values))
+        let start = (method.name() == "add").then(|| zero(&place.ty));
+        self.change(place, &way, start, |value| changed(value, method, values))
     }
 }
 
@@ -257,8 +263,22 @@ fn changed(value: &mut Value, method: Method, arguments: Vec<Value>) -> Outcome<
     Ok(())
 }
 
-/// A part of a value. A key that is not there is new where it may be, as the last step.
-fn part<'v>(whole: &'v mut Value, way: &[Way], may_be_new: bool) -> Outcome<&'v mut Value> {
+/// The value from which `+=`, `-=` and `add` start where a key is missing.
+fn zero(ty: &Type) -> Value {
+    match ty {
+        Type::Float => Value::Float(0.0),
+        Type::Point => Value::Point(Default::default()),
+        Type::String => Value::Text(String::new()),
+        Type::Time => Value::Time(0),
+        Type::Duration => Value::Duration(0),
+        Type::List(_) => Value::List(Vec::new()),
+        Type::Set(_) => Value::Set(Vec::new()),
+        _ => Value::Int(0),
+    }
+}
+
+/// A part of a value. A missing key gets the value `start`, if there is one and it is the last step.
+fn part<'v>(whole: &'v mut Value, way: &[Way], start: Option<Value>) -> Outcome<&'v mut Value> {
     let Some((step, rest)) = way.split_first() else {
         return Ok(whole);
     };
@@ -270,17 +290,16 @@ fn part<'v>(whole: &'v mut Value, way: &[Way], may_be_new: bool) -> Outcome<&'v 
         }
         (Way::Key(key), Value::Map(map)) => {
             if find(map, key).is_none() {
-                if !may_be_new || !rest.is_empty() {
-                    return Err(Stop::Fault(Fault::KeyMissing));
-                }
-                put(map, key.clone(), Value::Bool(false));
+                let start = start.clone().filter(|_| rest.is_empty());
+                let missing = Stop::Fault(Fault::KeyMissing);
+                put(map, key.clone(), start.ok_or(missing)?);
             }
             let at = find(map, key).expect("it is there");
             &mut map[at].1
         }
         (_, whole) => panic!("{whole:?} has no such part"),
     };
-    part(inner, rest, may_be_new)
+    part(inner, rest, start)
 }
 
 /// Does something with a part of a value. A coordinate is not a separate value: it is read and written
@@ -288,13 +307,13 @@ fn part<'v>(whole: &'v mut Value, way: &[Way], may_be_new: bool) -> Outcome<&'v 
 fn with_part<T>(
     whole: &mut Value,
     way: &[Way],
-    may_be_new: bool,
+    start: Option<Value>,
     then: impl FnOnce(&mut Value) -> Outcome<T>,
 ) -> Outcome<T> {
     let Some((Way::Coordinate(axis), before)) = way.split_last() else {
-        return then(part(whole, way, may_be_new)?);
+        return then(part(whole, way, start)?);
     };
-    let Value::Point(point) = part(whole, before, false)? else {
+    let Value::Point(point) = part(whole, before, None)? else {
         panic!("only a point has coordinates")
     };
     let coordinate = match axis {
