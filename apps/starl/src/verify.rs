@@ -1,7 +1,8 @@
 //! `starl verify`: judges the properties of a run by its trace alone, whichever host wrote it.
 //!
 //! Each record is shown to the checkers of every run, in the steps in which a simulator would show them. Properties
-//! that cannot be judged are reported with the reason. A run of the simulator is also held to the laws of its world.
+//! that cannot be judged are reported with the reason. Where the records of a robot end while it continues, properties of
+//! the whole fleet are judged up to there, and contacts and paths of the other robots to the end. A run of the simulator is also held to the laws of its world.
 
 mod account;
 mod laws;
@@ -13,9 +14,9 @@ use crate::{console, json};
 use account::Account;
 use starl_catalog::Application;
 use starl_catalog::programs::Registry;
-use starl_core::event::{Event, Name};
+use starl_core::event::{Event, Fault, Name};
 use starl_core::motion::{Body, Workspace};
-use starl_core::{Record, Time};
+use starl_core::{Intervention, Record, RobotId, Time};
 use starl_properties::{Checker, Setting, Violation, Watch, checkers};
 use starl_trace::{Header, TraceError};
 use std::path::Path;
@@ -160,6 +161,8 @@ struct Steps {
     /// The number of the step under way, and its records.
     number: u64,
     records: Vec<Record>,
+    /// The moments from which records of a robot are missing, the last one first.
+    unrecorded: Vec<(RobotId, Time)>,
 }
 
 impl Steps {
@@ -171,10 +174,14 @@ impl Steps {
             step: setting.step.0,
             number: 0,
             records: Vec::new(),
+            unrecorded: setting.unrecorded.iter().copied().rev().collect(),
         }
     }
 
     fn take(&mut self, record: Record) {
+        while let Some((robot, at)) = self.unrecorded.pop_if(|(_, at)| *at <= record.at) {
+            self.lose(robot, at);
+        }
         let number = record.at.0 / self.step;
         // Datagrams dropped in a sender's queue are recorded ahead of their time.
         if number > self.number && !matches!(record.event, Event::Dropped { .. }) {
@@ -182,6 +189,20 @@ impl Steps {
             self.number = number;
         }
         self.records.push(record);
+    }
+
+    /// The records of a robot end. Its body may be anywhere, and nothing is known of its commands.
+    fn lose(&mut self, robot: RobotId, at: Time) {
+        self.close(at);
+        self.number = at.0 / self.step;
+        self.watch.lack_robots();
+        let body = (
+            None,
+            Event::Intervention(Intervention::Leave(vec![robot]).into()),
+        );
+        let commands = (Some(robot), Event::Fault(Fault::Crash));
+        let records = [body, commands].map(|(robot, event)| Record { at, robot, event });
+        self.records.extend(records);
     }
 
     fn close(&mut self, now: Time) {

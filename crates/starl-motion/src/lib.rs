@@ -8,6 +8,7 @@ extern crate alloc;
 
 pub mod avoidance;
 pub mod contact;
+pub mod discovery;
 pub mod model;
 pub mod models;
 pub mod parameters;

@@ -96,6 +96,11 @@ pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
         Kinds::NONE
     }
 
+    /// Whether it judges some robots correctly when records of others are missing.
+    fn bears_missing_robots(&self) -> bool {
+        false
+    }
+
     /// Whether a deadline is pending, so that the property can be violated without further events.
     fn is_owed(&self, property: &str) -> bool {
         let _ = property;

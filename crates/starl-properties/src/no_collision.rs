@@ -448,6 +448,10 @@ impl Checker for NoCollision {
         &[NO_COLLISION]
     }
 
+    fn bears_missing_robots(&self) -> bool {
+        true
+    }
+
     fn heeds(&self) -> Kinds {
         Kinds::MOVED | Kinds::COLLIDED | Kinds::FAULT | Kinds::INTERVENTION
     }

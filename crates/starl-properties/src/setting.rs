@@ -35,6 +35,8 @@ pub struct Setting {
     pub keeps_storage: bool,
     /// The only robot with records; none if all robots have records.
     pub only: Option<RobotId>,
+    /// Robots whose records are missing from a moment on, although they continued; in the order of time.
+    pub unrecorded: Vec<(RobotId, Time)>,
     /// Whether a simulator wrote the records, so that poses are true and all times are those of one clock; default false.
     pub simulated: bool,
 }
@@ -55,6 +57,7 @@ impl Default for Setting {
             clock_drift: 0.0,
             keeps_storage: false,
             only: None,
+            unrecorded: Vec::new(),
             simulated: false,
         }
     }

@@ -16,6 +16,8 @@ pub struct Watch {
     kinds: Vec<Kinds>,
     /// Those of all records.
     seen: Kinds,
+    /// Whether records of some robots are missing.
+    lacks_robots: bool,
 }
 
 /// The verdict on one property.
@@ -35,6 +37,8 @@ pub struct Verdict {
     pub has_evidence: bool,
     /// Whether a deadline was pending, so that it could still be violated.
     pub owed: bool,
+    /// Whether it was judged until the last record.
+    pub to_the_end: bool,
     /// How often something was excused that speaks against it, by reason.
     pub excused: Vec<(Excuse, u64)>,
 }
@@ -64,6 +68,11 @@ impl Watch {
         (0..monitor.properties().len()).any(|property| monitor.is_open(property))
     }
 
+    /// From now on the records of some robots are missing. Checkers that need those of all robots see nothing more.
+    pub fn lack_robots(&mut self) {
+        self.lacks_robots = true;
+    }
+
     /// Shows the checkers the next records, in the order of their times, until `now`.
     pub fn observe(&mut self, records: &[Record], now: Time) {
         self.kinds.clear();
@@ -77,7 +86,9 @@ impl Watch {
                 self.used.push(event.primitive().to_string());
             }
         }
-        for checker in &mut self.checkers {
+        let lacks_robots = self.lacks_robots;
+        let checkers = self.checkers.iter_mut();
+        for checker in checkers.filter(|checker| !lacks_robots || checker.bears_missing_robots()) {
             let mut heeds = checker.heeds();
             for (record, &kind) in records.iter().zip(&self.kinds) {
                 if heeds.meets(kind) {
@@ -139,6 +150,7 @@ impl Watch {
                     used: used || verdict.used,
                     has_evidence: self.seen.hold(checker.needs(property)),
                     owed: checker.is_owed(property),
+                    to_the_end: !self.lacks_robots || checker.bears_missing_robots(),
                     excused: checker.excused(property),
                     ..verdict
                 }
@@ -184,6 +196,7 @@ impl Watch {
             first,
             has_evidence: true,
             owed: false,
+            to_the_end: true,
             excused: Vec::new(),
         }
     }

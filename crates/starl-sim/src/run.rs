@@ -1,7 +1,7 @@
 //! A run from start to end: the simulation, its checkers and monitors, and the result.
 
 use crate::engine::{Programs, Simulation, StartError};
-use crate::scenario::{Bounds, Goal, Group, Scenario};
+use crate::scenario::{Goal, Group, Scenario};
 use serde::{Deserialize, Serialize};
 use starl_core::event::{Event, Name};
 use starl_core::{Intervention, Record, RobotId, Time};
@@ -244,11 +244,7 @@ pub fn setting(scenario: &Scenario) -> Setting {
     let groups = &scenario.fleet.groups;
     let body = |group: &Group| vec![group.model.body(); group.starts.len()];
     let obstacles = scenario.world.obstacles.iter();
-    let walls = scenario
-        .world
-        .bounds
-        .as_ref()
-        .map_or(Vec::new(), Bounds::walls);
+    let walls = scenario.world.walls();
     let drifts = groups.iter().map(|group| group.clock.drift_ppm);
     Setting {
         walls: walls.len(),
@@ -264,6 +260,7 @@ pub fn setting(scenario: &Scenario) -> Setting {
         estimate_period: scenario.positioning.period,
         keeps_storage: scenario.storage.kept,
         only: None,
+        unrecorded: Vec::new(),
         simulated: false,
         position_noise: scenario.positioning.position_noise,
         clock_drift: drifts.fold(0.0, f64::max) * 1e-6,

@@ -218,7 +218,7 @@ impl Answer {
             (channel::TABLE, ITEM) => {
                 let (number, kind) = (rest.u16()?, rest.u8()?);
                 let mut words = rest.0.split(|byte| *byte == 0);
-                let mut word = || words.next().map(String::from_utf8_lossy);
+                let mut word = || std::str::from_utf8(words.next()?).ok();
                 let name = format!("{}.{}", word()?, word()?);
                 Answer::Item { number, kind, name }
             }

@@ -166,6 +166,7 @@ fn robot(keys: Vec<[u8; 32]>) -> Vec<Span> {
         things: Vec::new(),
         way_points: Vec::new(),
         obstacles: [].into(),
+        hidden: [].into(),
         positioning_period: Duration::from_millis(50),
         accuracy: Accuracy::default(),
         start: Some(Pose::default()),

@@ -5,6 +5,7 @@
 
 pub mod clock;
 pub mod device;
+mod discovery;
 pub mod link;
 pub mod localise;
 pub mod motors;

@@ -52,10 +52,13 @@ impl Storage {
             true => (Saved::default(), 0),
             false => recover(&bytes)?,
         };
-        // The next record overwrites an incomplete record.
-        file.set_len(size)?;
-        file.seek(SeekFrom::Start(size))?;
-        if size == 0 {
+        let is_whole = saved.is_whole();
+        if is_whole {
+            // The next record overwrites an incomplete record.
+            file.set_len(size)?;
+            file.seek(SeekFrom::Start(size))?;
+        }
+        if is_whole && size == 0 {
             file.write_all(&MAGIC)?;
             file.sync_all()?;
             sync_folder(path)?;
@@ -69,6 +72,10 @@ impl Storage {
             limit: 0,
         };
         storage.limit = SMALL.max(storage.size * 4);
+        if !is_whole {
+            // The next life must know of the loss too, so the damaged file stays until one that tells it takes its place.
+            storage.compact()?;
+        }
         Ok(storage)
     }
 
@@ -296,7 +303,10 @@ mod tests {
         let middle = bytes.len() / 2;
         bytes[middle] ^= 0x55;
         std::fs::write(&path, &bytes).unwrap();
-        assert!(!Storage::open(&path).unwrap().saved().is_whole());
+        for life in 1..3 {
+            let storage = Storage::open(&path).unwrap();
+            assert!(!storage.saved().is_whole(), "life {life}");
+        }
     }
 
     #[test]

@@ -6,8 +6,7 @@
 //! while is taken to stand where it was last.
 //!
 //! Few robots carry a detector or a ring of distance sensors that tells robots apart. A program that needs one gets the
-//! readings that the simulator defines ([`Readings`]), measured among these places and the obstacles that the robot
-//! knows.
+//! readings that the simulator defines ([`Readings`]), measured among these places and the obstacles of the scenario.
 
 use crate::localise::Localiser;
 use crate::robot::Setup;
@@ -40,6 +39,7 @@ pub(crate) struct Surroundings {
     things: Vec<Point>,
     /// The names of the things, by number.
     pub thing_names: Vec<Name>,
+    /// The obstacles of the scenario: those that are known from the start, then the hidden ones.
     map: ObstacleIndex,
     sensors: SensorSuite,
     readings: Readings,
@@ -69,7 +69,8 @@ impl Surroundings {
             told: None,
             sight: Localiser::new(setup.accuracy, None, true, Time::ZERO),
         };
-        let obstacles: Vec<Obstacle> = setup.obstacles.iter().cloned().collect();
+        let obstacles = setup.obstacles.iter().chain(setup.hidden.iter());
+        let obstacles: Vec<Obstacle> = obstacles.cloned().collect();
         Surroundings {
             me: setup.id,
             others: bodies.map(other).collect(),
@@ -104,6 +105,16 @@ impl Surroundings {
         let numbered = (0..).map(RobotId).zip(&self.others);
         let others = numbered.filter(|(robot, _)| *robot != self.me);
         others.filter_map(move |(_, other)| other.by(now))
+    }
+
+    /// The robot's own body at this place.
+    pub fn own(&self, place: Point) -> Neighbour {
+        self.others[self.me.index()].at(place)
+    }
+
+    /// The obstacles of the scenario: those that are known from the start, then the hidden ones.
+    pub fn map(&self) -> &ObstacleIndex {
+        &self.map
     }
 
     /// Computes the readings of the robot's sensors at `now`, with the robot at `pose`; nothing for a robot without
@@ -239,6 +250,7 @@ mod tests {
             }],
             way_points: Vec::new(),
             obstacles: obstacle.into_iter().collect(),
+            hidden: Vec::new().into(),
             positioning_period: Duration::from_millis(100),
             accuracy: Accuracy::default(),
             start: None,

@@ -157,6 +157,7 @@ impl Robots {
             things: Vec::new(),
             way_points: Vec::<WayPoint>::new(),
             obstacles: [].into(),
+            hidden: [].into(),
             positioning_period: PERIOD,
             accuracy: Default::default(),
             start: Some(Pose::default()),

@@ -114,10 +114,9 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
         turn: scenario.motion.turn_noise,
         seed: scenario.seed,
     };
-    let world = World::new(
-        obstacles.map(|entry| entry.obstacle.clone()).collect(),
-        noise,
-    );
+    let obstacles = obstacles.map(|entry| entry.obstacle.clone());
+    let walls = scenario.world.walls();
+    let world = World::new(obstacles.chain(walls).collect(), noise);
     let mut emulated = Vec::new();
     let mut routers = Routers::default();
     for member in &fleet.robots {

@@ -115,7 +115,9 @@ fn setup(
     let groups = scenario.fleet.groups.iter();
     let bodies = groups.flat_map(|group| vec![group.model.body(); group.starts.len()]);
     let obstacles = scenario.world.obstacles.iter();
-    let known = obstacles.filter(|entry| !entry.hidden);
+    let (hidden, known): (Vec<_>, Vec<_>) = obstacles.partition(|entry| entry.hidden);
+    let shape = |entry: &scenario::WorldObstacle| entry.obstacle.clone();
+    let walls = scenario.world.walls();
     let things = scenario.world.things.iter();
     let thing = |thing: &scenario::Thing| Thing {
         name: thing.name.clone().into(),
@@ -142,7 +144,8 @@ fn setup(
         sensors: group.sensors,
         things: things.map(thing).collect(),
         way_points: scenario.world.way_points.clone(),
-        obstacles: known.map(|entry| entry.obstacle.clone()).collect(),
+        obstacles: known.into_iter().map(shape).chain(walls).collect(),
+        hidden: hidden.into_iter().map(shape).collect(),
         positioning_period: scenario.positioning.period,
         accuracy: Accuracy {
             position: scenario.positioning.position_noise.max(usual.position),

@@ -4,6 +4,8 @@
 //! receiver. The shortest delays in both directions between two robots bound the difference of their clocks (as in RFC
 //! 5905). Clocks drift, so in a long run a line is fitted through the differences in its parts.
 
+mod endings;
+
 use super::file::Fleet;
 use super::folder::Folder;
 use crate::args::FleetMergeArguments;
@@ -11,6 +13,7 @@ use crate::console;
 use crate::failure::Failure;
 use crate::output::create_now;
 use crate::replay::{open, unreadable};
+use endings::{Ending, Endings, Span};
 use starl_catalog::programs::Registry;
 use starl_core::event::{Event, Fault};
 use starl_core::{Duration, RobotId, Time};
@@ -47,6 +50,8 @@ pub struct Merged {
     missing: Vec<RobotId>,
     /// Robots whose clocks could not be compared.
     apart: Vec<RobotId>,
+    /// Robots whose records end although they continued, and when.
+    unrecorded: Vec<(RobotId, Time)>,
 }
 
 impl Merged {
@@ -75,6 +80,13 @@ impl Merged {
         for robot in &self.missing {
             text += &format!("{}: its trace is missing\n", name(robot));
         }
+        for (robot, at) in &self.unrecorded {
+            text += &format!(
+                "{}: its records end at {:.3} s, but it continued, so the fleet is not judged as a whole after that\n",
+                name(robot),
+                at.seconds()
+            );
+        }
         for robot in &self.apart {
             text += &format!(
                 "{}: has exchanged no messages, so its clock could not be compared\n",
@@ -97,7 +109,7 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
     let Some(first) = lives.values().flatten().next() else {
         return Err(Failure::file(&folder.0, "holds no traces of robots"));
     };
-    let header = header(first)?;
+    let (mut header, mut setting) = header(first)?;
     let exchanges = Exchanges::read(&lives, &header)?;
     let recorded: Vec<RobotId> = lives
         .keys()
@@ -108,18 +120,23 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
     let apart = lives
         .keys()
         .filter(|robot| !clocks.contains_key(robot) && !missing.contains(robot));
+    let endings = exchanges.endings(&clocks);
+    setting.unrecorded = endings.unrecorded();
+    header.setting =
+        serde_json::to_string_pretty(&setting).map_err(|error| Failure::file(out, error))?;
     let merged = Merged {
-        records: write(&lives, &clocks, &exchanges.sent, &header, out)?,
+        records: write(&lives, &clocks, &exchanges.sent, &endings, &header, out)?,
         apart: apart.copied().collect(),
+        unrecorded: setting.unrecorded,
         missing,
         clocks,
     };
     Ok(merged)
 }
 
-/// The header of one robot's trace, as that of a trace of all.
-fn header(path: &Path) -> Result<Header, Failure> {
-    let mut header = open(path)?.header().clone();
+/// The header and the setting of one robot's trace, as those of a trace of all.
+fn header(path: &Path) -> Result<(Header, Setting), Failure> {
+    let header = open(path)?.header().clone();
     let setting: Setting = serde_json::from_str(&header.setting).map_err(|error| {
         Failure::file(path, format!("the attachment starl/setting.json: {error}"))
     })?;
@@ -127,9 +144,7 @@ fn header(path: &Path) -> Result<Header, Failure> {
         only: None,
         ..setting
     };
-    header.setting =
-        serde_json::to_string_pretty(&setting).map_err(|error| Failure::file(path, error))?;
-    Ok(header)
+    Ok((header, setting))
 }
 
 /// How a robot's clock differs from the first robot's.
@@ -184,10 +199,15 @@ impl Clock {
 const PART: f64 = 30.0;
 
 /// The datagrams that were sent by one robot and have arrived at another.
+#[derive(Default)]
 struct Exchanges {
     /// When each was sent, by its sender's clock.
     sent: HashMap<(RobotId, u32), Time>,
     arrived: Vec<Exchange>,
+    /// Datagrams of which no sending is recorded: the sender, the receiver, and when they arrived by its clock.
+    strays: Vec<(RobotId, RobotId, Time)>,
+    /// The lives of each robot: when they begin and end by its clock, and how.
+    spans: BTreeMap<RobotId, Vec<(Time, Time, Ending)>>,
 }
 
 /// A datagram: its sender, its receiver, when it arrived by the receiver's clock, and how long it took by the clocks of
@@ -207,6 +227,8 @@ impl Exchanges {
     ) -> Result<Exchanges, Failure> {
         let mut sent: HashMap<(RobotId, u32), Time> = HashMap::new();
         let mut arrived: Vec<(RobotId, RobotId, u32, Time)> = Vec::new();
+        let mut spans: BTreeMap<RobotId, Vec<_>> =
+            lives.keys().map(|robot| (*robot, Vec::new())).collect();
         for (&robot, path) in lives
             .iter()
             .flat_map(|(robot, paths)| paths.iter().map(move |path| (robot, path)))
@@ -218,7 +240,9 @@ impl Exchanges {
                     "is of another scenario than the first robot's trace",
                 ));
             }
+            let mut begin = None;
             while let Some((at, item)) = life.next()? {
+                begin.get_or_insert(at);
                 match item {
                     Piece::Record(Event::Sent { sequence, .. }) => {
                         sent.insert((robot, sequence), at);
@@ -229,18 +253,50 @@ impl Exchanges {
                     _ => {}
                 }
             }
+            let ending = Ending::of(life.reader.summary());
+            let span = (begin.unwrap_or_default(), life.last, ending);
+            spans.entry(robot).or_default().push(span);
         }
-        let arrived = arrived.into_iter().filter_map(|(from, to, sequence, at)| {
-            let sent = sent.get(&(from, sequence))?;
-            Some(Exchange {
-                from,
-                to,
-                at: at.seconds(),
-                delay: at.seconds() - sent.seconds(),
-            })
+        let mut exchanges = Exchanges {
+            sent,
+            spans,
+            ..Exchanges::default()
+        };
+        for (from, to, sequence, at) in arrived {
+            match exchanges.sent.get(&(from, sequence)) {
+                Some(sent) => exchanges.arrived.push(Exchange {
+                    from,
+                    to,
+                    at: at.seconds(),
+                    delay: at.seconds() - sent.seconds(),
+                }),
+                None => exchanges.strays.push((from, to, at)),
+            }
+        }
+        Ok(exchanges)
+    }
+
+    /// How the robots' traces end, on one time axis.
+    fn endings(&self, clocks: &BTreeMap<RobotId, Clock>) -> Endings {
+        let corrected = |robot: RobotId, at: Time| match clocks.get(&robot) {
+            Some(clock) => clock.corrected(at.seconds()),
+            None => at.seconds(),
+        };
+        let lives = self.spans.iter().map(|(&robot, spans)| {
+            let spans = spans.iter().map(|&(begin, end, ending)| Span {
+                begin: corrected(robot, begin),
+                end: corrected(robot, end),
+                ending,
+            });
+            (robot, spans.collect())
         });
-        let arrived = arrived.collect();
-        Ok(Exchanges { sent, arrived })
+        let strays = self.strays.iter();
+        Endings {
+            lives: lives.collect(),
+            strays: strays
+                .map(|&(from, to, at)| (from, corrected(to, at)))
+                .collect(),
+        }
     }
 
     /// The robots' clocks; none for robots that cannot be compared with the first one.
@@ -375,6 +431,7 @@ fn write(
     lives: &BTreeMap<RobotId, Vec<PathBuf>>,
     clocks: &BTreeMap<RobotId, Clock>,
     sent: &HashMap<(RobotId, u32), Time>,
+    endings: &Endings,
     header: &Header,
     out: &Path,
 ) -> Result<u64, Failure> {
@@ -397,6 +454,12 @@ fn write(
         }
         _ => None,
     };
+    for robot in endings.never_seen() {
+        let crash = Event::Fault(Fault::Crash);
+        writer
+            .event(Time::ZERO, Some(robot), &crash)
+            .map_err(cannot)?;
+    }
     let mut open: Vec<Life> = Vec::new();
     for (&robot, paths) in lives {
         for (number, path) in paths.iter().enumerate() {
@@ -424,6 +487,10 @@ fn write(
         let fault =
             |writer: &mut Writer<File>, fault| writer.event(at, Some(robot), &Event::Fault(fault));
         if !std::mem::replace(&mut life.begun, true) && life.number > 0 {
+            // A robot whose trace had reached its limit crashed at a time that is not known.
+            if !endings.went_down(robot, life.number - 1) {
+                fault(&mut writer, Fault::Crash).map_err(cannot)?;
+            }
             fault(&mut writer, Fault::Restart).map_err(cannot)?;
             finished.remove(&robot);
         }
@@ -449,7 +516,7 @@ fn write(
                 queue.push(Reverse((shift(robot, next).max(at), index)));
                 waiting[index] = Some(piece);
             }
-            None if life.number + 1 < lives[&robot].len() => {
+            None if endings.went_down(robot, life.number) => {
                 fault(&mut writer, Fault::Crash).map_err(cannot)?;
             }
             None => {}
@@ -537,8 +604,11 @@ mod tests {
                     });
                 }
             }
-            let sent = HashMap::new();
-            let found = Exchanges { sent, arrived }.clocks(&robots);
+            let exchanges = Exchanges {
+                arrived,
+                ..Exchanges::default()
+            };
+            let found = exchanges.clocks(&robots);
             assert_eq!(found.len(), robots.len());
             for (robot, clock) in &found {
                 for time in [0.0, 900.0, 1800.0] {

@@ -10,6 +10,9 @@ use starl_lang::robot::RobotProgram;
 use starl_node::robot::Recorder;
 use starl_trace::Outcome;
 
+/// The outcome of a trace that has reached its limit: its robot continues.
+pub const LIMIT_REACHED: &str = "limit_reached";
+
 /// The recorder of one robot.
 pub struct FleetRecorder {
     robot: RobotId,
@@ -48,13 +51,13 @@ impl FleetRecorder {
     /// Completes the trace.
     pub fn finish(mut self) {
         self.advance(self.end);
-        self.complete();
+        self.complete("stopped");
     }
 
-    fn complete(&mut self) {
+    fn complete(&mut self, outcome: &str) {
         if let Some(trace) = self.trace.take() {
             let outcome = Outcome {
-                outcome: "stopped".to_string(),
+                outcome: outcome.to_string(),
                 digest: 0,
                 end: self.end,
             };
@@ -124,7 +127,7 @@ impl Recorder for FleetRecorder {
                 self.limit >> 20
             );
             self.notice(now, &text);
-            self.complete();
+            self.complete(LIMIT_REACHED);
         }
     }
 

@@ -21,7 +21,15 @@ pub struct Account {
     pub holding: usize,
     pub violated: usize,
     pub not_judged: usize,
+    pub unrecorded: Vec<Unrecorded>,
     pub properties: Vec<Property>,
+}
+
+/// A robot whose records end while it continues.
+#[derive(Debug, Serialize)]
+pub struct Unrecorded {
+    pub robot: String,
+    pub at_seconds: f64,
 }
 
 /// A property, and whether it holds.
@@ -33,6 +41,7 @@ pub struct Property {
     pub violations: usize,
     pub first: Option<Breach>,
     pub excused: Vec<Excused>,
+    pub judged_until_seconds: f64,
 }
 
 /// Why a property is not judged.
@@ -63,13 +72,25 @@ impl Account {
             None => robot.to_string(),
         };
         let is_cut = judged.cut.is_some();
+        let lost = judged.setting.unrecorded.iter();
+        let unrecorded: Vec<Unrecorded> = lost
+            .map(|&(robot, at)| Unrecorded {
+                robot: name(robot),
+                at_seconds: at.seconds(),
+            })
+            .collect();
+        let end = judged.end.seconds();
+        let lost = unrecorded.first().map_or(end, |lost| lost.at_seconds);
         let verdicts = judged.watch.verdicts().into_iter();
-        let checked = verdicts.map(|verdict| Property::of(verdict, is_cut, name));
+        let checked = verdicts.map(|verdict| {
+            let until = if verdict.to_the_end { end } else { lost };
+            Property::of(verdict, is_cut, until, name)
+        });
         let monitored = judged.setting.monitored.iter();
         let monitored = monitored.map(|property| {
             let against = judged.recorded.iter();
             let against = against.filter(|violation| violation.property == *property);
-            Property::recorded(property, against.collect(), name)
+            Property::recorded(property, against.collect(), end, name)
         });
         let properties: Vec<Property> = checked.chain(monitored).collect();
         let count = |verdict: &str| {
@@ -79,12 +100,13 @@ impl Account {
         Account {
             trace: path.display().to_string(),
             records: judged.records,
-            end_seconds: judged.end.seconds(),
+            end_seconds: end,
             is_whole: !is_cut,
             ends: judged.cut.clone(),
             holding: count(HOLDS),
             violated: count(VIOLATED),
             not_judged: count(NOT_JUDGED),
+            unrecorded,
             properties,
         }
     }
@@ -108,6 +130,12 @@ impl Account {
         if let Some(ends) = &self.ends {
             writeln!(text, "{ends}")?;
         }
+        for Unrecorded { robot, at_seconds } in &self.unrecorded {
+            writeln!(
+                text,
+                "{robot}: its records end at {at_seconds:.3} s, but it continued"
+            )?;
+        }
         let used = || {
             let entries = self.properties.iter();
             entries.filter(|entry| entry.reason != Some(Reason::Unused))
@@ -124,8 +152,12 @@ impl Account {
                     writeln!(text, "{property:width$}  not judged: {}", reason.text())?;
                 }
                 (None, 0) => {
+                    let until = match entry.judged_until_seconds < self.end_seconds {
+                        true => format!(" until {:.3} s", entry.judged_until_seconds),
+                        false => String::new(),
+                    };
                     let remark = remark(&entry.excused);
-                    writeln!(text, "{property:width$}  {verdict}{remark}")?;
+                    writeln!(text, "{property:width$}  {verdict}{until}{remark}")?;
                 }
                 (None, 1) => writeln!(text, "{property:width$}  VIOLATED")?,
                 (None, many) => writeln!(
@@ -170,7 +202,12 @@ const VIOLATED: &str = "violated";
 const NOT_JUDGED: &str = "not_judged";
 
 impl Property {
-    fn of(verdict: Verdict, is_cut: bool, name: impl Fn(RobotId) -> String) -> Property {
+    fn of(
+        verdict: Verdict,
+        is_cut: bool,
+        until: f64,
+        name: impl Fn(RobotId) -> String,
+    ) -> Property {
         let is_violated = verdict.first.is_some();
         let reason = if is_violated {
             None
@@ -178,7 +215,7 @@ impl Property {
             Some(Reason::Unused)
         } else if !verdict.has_evidence {
             Some(Reason::MissingRecords)
-        } else if is_cut && verdict.owed {
+        } else if (is_cut || !verdict.to_the_end) && verdict.owed {
             Some(Reason::CutShort)
         } else {
             None
@@ -194,6 +231,7 @@ impl Property {
             violations: verdict.violations,
             first: verdict.first.map(|first| Breach::of(&first, name)),
             excused: excused(&verdict.excused),
+            judged_until_seconds: until,
         }
     }
 
@@ -201,6 +239,7 @@ impl Property {
     fn recorded(
         property: &Name,
         against: Vec<&Violation>,
+        until: f64,
         name: impl Fn(RobotId) -> String,
     ) -> Property {
         let is_violated = !against.is_empty();
@@ -211,6 +250,7 @@ impl Property {
             violations: against.len(),
             first: against.first().map(|first| Breach::of(first, name)),
             excused: Vec::new(),
+            judged_until_seconds: until,
         }
     }
 }

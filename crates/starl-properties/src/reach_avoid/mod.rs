@@ -197,6 +197,10 @@ impl Checker for ReachAvoid {
         &[SAFETY, GOAL, PROGRESS]
     }
 
+    fn bears_missing_robots(&self) -> bool {
+        true
+    }
+
     fn heeds(&self) -> Kinds {
         // Missed deadlines are found at the next record of any kind.
         match self.deadlines.is_empty() {

@@ -124,7 +124,7 @@ impl Turn<'_> {
         self.node.locate(at, estimate, &mut self.outlet);
         if !shared.hidden.is_empty() {
             let range = self.outlet.kind.sensors.discovery_range;
-            let found = discover::discover(shared, self.node.id(), state, range, self.senses);
+            let found = discover::discover(shared, self.node.id(), range, self.senses);
             for obstacle in found {
                 self.outlet.record(at, Event::Discovered(obstacle));
             }

@@ -3,22 +3,12 @@
 use super::shared::Shared;
 use super::simulated_robot::{Knowledge, Senses};
 use starl_core::event::Hit;
-use starl_core::geometry::Bounds;
 use starl_core::{Obstacle, RobotId};
-use starl_motion::State;
-
-/// Obstacles whose distance differs by less than this meet, metres.
-const CORNER: f64 = 1e-3;
+use starl_motion::discovery::perceives;
 
 /// Hidden obstacles within `range` metres and in line of sight, or touched, become known. Returns those that
 /// were not known before.
-pub fn discover(
-    shared: &Shared,
-    robot: RobotId,
-    state: &State,
-    range: f64,
-    senses: &mut Senses,
-) -> Vec<Obstacle> {
+pub fn discover(shared: &Shared, robot: RobotId, range: f64, senses: &mut Senses) -> Vec<Obstacle> {
     let body = &shared.bodies[robot.index()];
     let mut found = Vec::new();
     for &index in &shared.hidden {
@@ -29,8 +19,7 @@ pub fn discover(
         }
         let obstacle = &shared.map.obstacles()[index as usize];
         let touched = senses.touching == Some(Hit::Obstacle(world_index));
-        let gap = obstacle.body_gap(body.position, body.radius, body.height);
-        if !touched && (gap > range || !sees(shared, state, index)) {
+        if !touched && !perceives(body, &shared.map, index, range) {
             continue;
         }
         let knowledge = senses.knowledge.get_or_insert_with(|| {
@@ -49,22 +38,4 @@ pub fn discover(
         found.push(obstacle.clone());
     }
     found
-}
-
-/// Whether nothing stands between the robot and the nearest point of an obstacle. Another one that meets it
-/// there, as walls do at a corner, hides nothing of it; so the nearest of all is always seen.
-fn sees(shared: &Shared, state: &State, index: u32) -> bool {
-    let map = &shared.map;
-    let eye = state.pose.position;
-    let nearest = map.obstacles()[index as usize].nearest_point(eye);
-    let Some(direction) = (nearest - eye).normalized() else {
-        return true;
-    };
-    let target = nearest - direction * CORNER.min(eye.distance(nearest));
-    let mut seen = true;
-    map.any_near(&Bounds::of_segment(eye, target), |other| {
-        seen = other == index || !map.obstacles()[other as usize].blocks_segment(eye, target, 0.0);
-        !seen
-    });
-    seen
 }

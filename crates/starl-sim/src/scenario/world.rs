@@ -16,10 +16,14 @@ pub struct World {
 }
 
 impl World {
+    /// The walls around the world, which all robots know; none in a world without bounds.
+    pub fn walls(&self) -> Vec<Obstacle> {
+        self.bounds.map_or(Vec::new(), |bounds| bounds.walls())
+    }
+
     /// Calls `raise` with the index, the shape and the visibility of each wall around the world.
     pub(crate) fn raise_walls(&self, raise: &mut impl FnMut(usize, &Obstacle, bool)) {
-        let walls = self.bounds.map(|bounds| bounds.walls()).unwrap_or_default();
-        for (side, wall) in walls.iter().enumerate() {
+        for (side, wall) in self.walls().iter().enumerate() {
             raise(self.obstacles.len() + side, wall, false);
         }
     }

@@ -3,6 +3,7 @@
 use super::watch::Watched;
 use super::{Equipment, Incoming, Recorder, Setup};
 use crate::Reading;
+use crate::discovery::Discovery;
 use crate::link::Channel;
 use crate::link::quality::Quality;
 use crate::localise::Localiser;
@@ -12,7 +13,7 @@ use crate::safety::Hazard;
 use crate::surroundings::Surroundings;
 use crate::writer::Written;
 use starl_core::sensor::Contact;
-use starl_core::{Agent, Duration, Event, Point, RobotId, Sensors, Time};
+use starl_core::{Agent, Duration, Event, Obstacle, Point, RobotId, Sensors, Time};
 use starl_host::{Clock, Datagram, Node, NodeInput, Snapshot, Workspace};
 use std::mem;
 
@@ -36,6 +37,7 @@ pub struct Core<R: Recorder, E: Equipment> {
     pub(super) node: Node,
     pub(super) localiser: Localiser,
     pub(super) surroundings: Surroundings,
+    discovery: Discovery,
     pub(super) equipment: E,
     pub(super) channel: Channel,
     pub(super) peers: Vec<Peer>,
@@ -89,6 +91,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             node,
             localiser: Localiser::new(setup.accuracy, setup.start, has_fixes, now),
             surroundings: Surroundings::new(&setup),
+            discovery: Discovery::new(&setup),
             equipment,
             channel,
             to_self: Vec::new(),
@@ -235,6 +238,8 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             self.recorded = position;
             self.recorder.record(self.now, Event::Moved(estimate.pose));
         }
+        let found = self.discovery.look(&self.surroundings, position);
+        self.discover(found);
         if is_started {
             self.handle(NodeInput::Located);
         }
@@ -284,8 +289,19 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
     fn feel(&mut self, reading: &Reading) {
         if let Some(contact) = reading.bumper.filter(|_| self.setup.sensors.bumper) {
             self.contact = contact;
+            if let (Some(contact), Some((estimate, _))) = (contact, self.localiser.estimate()) {
+                let (around, pose) = (&self.surroundings, &estimate.pose);
+                let found = self.discovery.touch(around, self.now, pose, contact);
+                self.discover(found);
+            }
         }
         self.battery = reading.battery.or(self.battery);
+    }
+
+    fn discover(&mut self, found: Vec<Obstacle>) {
+        for obstacle in found {
+            self.recorder.record(self.now, Event::Discovered(obstacle));
+        }
     }
 
     pub(super) fn handle(&mut self, happening: NodeInput) {
@@ -308,7 +324,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             },
             fleet: &self.fleet,
             way_points: &self.setup.way_points,
-            obstacles: &self.setup.obstacles,
+            obstacles: self.discovery.known(),
         };
         let mut outlet = RuntimeOutlet {
             workspace: &mut self.workspace,

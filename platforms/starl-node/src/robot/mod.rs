@@ -54,8 +54,10 @@ pub struct Setup {
     pub things: Vec<Thing>,
     /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
-    /// The obstacles that it knows.
+    /// The obstacles that it knows from the start.
     pub obstacles: Obstacles,
+    /// The obstacles that it has to discover.
+    pub hidden: Obstacles,
     /// The period of its position estimates.
     pub positioning_period: Duration,
     /// How exact its odometry and its positions are.

@@ -1,0 +1,105 @@
+//! The obstacles that a robot knows: its map, and the obstacles that it has discovered.
+//!
+//! Hidden obstacles of the scenario are perceived as in the simulator, from the place where the robot believes to be.
+//! Where its bumper meets something that no obstacle and no robot explains, the robot takes it for a post.
+
+use crate::robot::Setup;
+use crate::surroundings::Surroundings;
+use starl_core::motion::Obstacles;
+use starl_core::sensor::Contact;
+use starl_core::{Obstacle, Point, Pose, Time};
+use starl_motion::discovery::perceives;
+
+/// An obstacle or a robot this near to the touched point of the bumper is what the robot has touched, metres. The two
+/// halves of a Create's bumper tell the direction to 45°, which is 0.13 m, and positions err by some centimetres.
+const REACH: f64 = 0.2;
+
+/// The radius of the post that a touch stands for, metres.
+const POST: f64 = 0.05;
+
+/// A robot remembers at most so many posts, so that a bumper that is stuck costs no more than that.
+const MOST_POSTS: usize = 32;
+
+/// The robot's knowledge of obstacles.
+#[derive(Debug)]
+pub(crate) struct Discovery {
+    known: Obstacles,
+    /// The obstacles that are not yet known, as indices into the map of the surroundings.
+    hidden: Vec<u32>,
+    /// How far the robot perceives them, metres.
+    range: f64,
+    posts: usize,
+}
+
+impl Discovery {
+    /// Nothing is discovered yet.
+    pub fn new(setup: &Setup) -> Discovery {
+        let first = setup.obstacles.len() as u32;
+        Discovery {
+            known: setup.obstacles.clone(),
+            hidden: (first..first + setup.hidden.len() as u32).collect(),
+            range: setup.sensors.discovery_range,
+            posts: 0,
+        }
+    }
+
+    /// All obstacles that the robot knows.
+    pub fn known(&self) -> &Obstacles {
+        &self.known
+    }
+
+    /// The hidden obstacles that the robot perceives for the first time, at this place.
+    pub fn look(&mut self, surroundings: &Surroundings, place: Point) -> Vec<Obstacle> {
+        let (body, map) = (surroundings.own(place), surroundings.map());
+        let range = self.range;
+        self.find(surroundings, |index| perceives(&body, map, index, range))
+    }
+
+    /// The obstacles that become known because something touches the robot.
+    pub fn touch(
+        &mut self,
+        surroundings: &Surroundings,
+        now: Time,
+        pose: &Pose,
+        contact: Contact,
+    ) -> Vec<Obstacle> {
+        let (sin, cos) = (pose.yaw + contact.bearing).sin_cos();
+        let direction = Point::planar(cos, sin);
+        let radius = surroundings.own(pose.position).radius;
+        let touched = pose.position + direction * radius;
+        let is_near = |obstacle: &Obstacle| obstacle.body_gap(touched, 0.0, 0.0) <= REACH;
+        let robot = |other: starl_motion::Neighbour| {
+            touched.planar_distance(other.position) - other.radius <= REACH
+        };
+        if self.known.iter().any(is_near) || surroundings.others(now).any(robot) {
+            return Vec::new();
+        }
+        let obstacles = surroundings.map().obstacles();
+        let found = self.find(surroundings, |index| is_near(&obstacles[index as usize]));
+        if !found.is_empty() || self.posts == MOST_POSTS {
+            return found;
+        }
+        self.posts += 1;
+        let post = Obstacle::circle(touched + direction * POST, POST);
+        self.known = self.known.iter().cloned().chain([post.clone()]).collect();
+        vec![post]
+    }
+
+    /// The hidden obstacles for which this holds become known.
+    fn find(
+        &mut self,
+        surroundings: &Surroundings,
+        is_found: impl Fn(u32) -> bool,
+    ) -> Vec<Obstacle> {
+        let (found, hidden): (Vec<u32>, Vec<u32>) =
+            self.hidden.iter().partition(|index| is_found(**index));
+        if found.is_empty() {
+            return Vec::new();
+        }
+        self.hidden = hidden;
+        let obstacle = |index: u32| surroundings.map().obstacles()[index as usize].clone();
+        let found: Vec<Obstacle> = found.into_iter().map(obstacle).collect();
+        self.known = self.known.iter().chain(&found).cloned().collect();
+        found
+    }
+}

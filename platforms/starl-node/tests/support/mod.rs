@@ -1,0 +1,90 @@
+//! A robot without threads whose device, network and storage do nothing.
+
+use starl_core::event::Event;
+use starl_core::motion::{Body, Workspace};
+use starl_core::{Command, Duration, Estimate, Pose, Program, Random, RobotId, Saved, Time};
+use starl_host::{Hardware, Observed, PlanJob, StoreJob};
+use starl_motion::Neighbour;
+use starl_motion::sensing::SensorSuite;
+use starl_node::Safety;
+use starl_node::link::{Member, Origin};
+use starl_node::robot::{Equipment, Recorder, Setup};
+use std::sync::Arc;
+
+/// Does nothing; the positions come from outside.
+pub struct Idle;
+
+impl Equipment for Idle {
+    fn saved(&self) -> Option<Arc<Saved>> {
+        None
+    }
+
+    fn has_fixes(&self) -> bool {
+        true
+    }
+
+    fn drive(&mut self, _: Command, _: &Estimate) {}
+
+    fn stop(&mut self) {}
+
+    fn end(&mut self) {}
+
+    fn find(&mut self, _: PlanJob, _: Vec<Neighbour>) {}
+
+    fn write(&mut self, _: StoreJob) {}
+
+    fn send(&mut self, _: Member, _: &[u8]) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn learn(&mut self, _: Member, _: Origin) {}
+}
+
+/// The events in the order in which they were recorded.
+#[derive(Default)]
+pub struct Notes(pub Vec<(Time, Event)>);
+
+impl Recorder for Notes {
+    fn record(&mut self, at: Time, event: Event) {
+        self.0.push((at, event));
+    }
+
+    fn observe(&mut self, _: Time, _: Observed<'_>) {}
+
+    fn advance(&mut self, _: Time) {}
+
+    fn notice(&mut self, _: Time, _: &str) {}
+}
+
+pub fn at(ms: u64) -> Time {
+    Time::ZERO + Duration::from_millis(ms)
+}
+
+/// A robot of radius 0.2 m that runs this program, alone in an empty world, with a position every 10 ms.
+pub fn setup(program: impl Program + 'static) -> Setup {
+    let body = Body {
+        radius: 0.2,
+        height: 0.1,
+        workspace: Workspace::Ground,
+    };
+    Setup {
+        id: RobotId(0),
+        bodies: vec![body],
+        program: Box::new(program),
+        random: Random::keyed(1, &[]),
+        hardware: Hardware {
+            body,
+            control_period: Duration::from_millis(10),
+            drive: None,
+        },
+        sensors: SensorSuite::default(),
+        things: Vec::new(),
+        way_points: Vec::new(),
+        obstacles: [].into(),
+        hidden: [].into(),
+        positioning_period: Duration::from_millis(10),
+        accuracy: Default::default(),
+        start: Some(Pose::default()),
+        safety: Safety::default(),
+    }
+}
