@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn a_robot_whose_trace_has_reached_its_limit_continues() {
         let endings = endings(&[life(0.0, 20.0, Ending::LimitReached)], &[]);
-        assert_eq!(endings.unrecorded(), [(ONE, Time::from_seconds(20))]);
+        assert_eq!(endings.unrecorded(), [(ONE, Time(20_000_000_000))]);
         assert!(!endings.went_down(ONE, 0));
     }
 
@@ -143,7 +143,7 @@ mod tests {
     fn a_robot_that_is_heard_after_its_trace_was_cut_continues() {
         let lives = [life(0.0, 20.0, Ending::Cut), life(25.0, 40.0, Ending::Cut)];
         let endings = endings(&lives, &[41.0]);
-        assert_eq!(endings.unrecorded(), [(ONE, Time::from_seconds(40))]);
+        assert_eq!(endings.unrecorded(), [(ONE, Time(40_000_000_000))]);
         assert!(endings.went_down(ONE, 0) && !endings.went_down(ONE, 1));
     }
 
