@@ -148,6 +148,7 @@ export class WorldScreen {
     scene.states = run.states.value;
     scene.world = run.world.value;
     scene.selected = run.selected.value;
+    scene.robots = run.robots.value;
     scene.message = run.message.value;
     scene.linger = Math.min(5, Math.max(0.02, LINGER * run.speed.value));
     scene.hidden = hidden.value;
@@ -244,6 +245,7 @@ function emptyScene(element: Element): Scene {
     history: run.history,
     happenings: new Happenings(),
     selected: [],
+    robots: [],
     message: null,
     linger: LINGER,
     hidden: hidden.value,
