@@ -1,4 +1,4 @@
-// What a person sees at once on a large and on a small screen: nothing squeezed, cut off, or left out.
+// Large and small screens: nothing is squeezed, cut off, or left out.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
