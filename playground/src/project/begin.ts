@@ -4,15 +4,12 @@ import { part } from "../app/App.tsx";
 import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
 import { openExample } from "../gallery/examples.ts";
-import { stage } from "../world/world.ts";
 import { keepChecking } from "./checking.ts";
 import { returning } from "./project.ts";
 import { runProject } from "./running.ts";
 
 export async function begin(): Promise<void> {
   keepChecking();
-  // A run will be shown, and what paints it loads beside the simulator.
-  if (returning || location.search) void stage().catch(() => undefined);
   const example = new URLSearchParams(location.search).get("example");
   if (example) {
     // Another visit to the page continues with the edited example.
