@@ -14,7 +14,7 @@ const page = document.getElementById("page");
 if (!page) throw new Error("index.html has an element #page");
 render(<App />, page);
 
-// All but a first visit show a run: what paints it loads beside everything else.
+// Every visit except the first shows a run: what paints it loads beside everything else.
 if (returning || location.search) void stage().catch(() => undefined);
 
 start.value = await askHost();
