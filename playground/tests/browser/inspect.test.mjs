@@ -169,6 +169,7 @@ test("two seeds part at their first difference", async () => {
   await play();
   await over();
   await tab("Compare");
+  await page.getByRole("button", { name: "Keep this run" }).waitFor();
   const [keep, compare] = await page.locator(".compare .acts button").all();
   const [one, two] = [await keep.boundingBox(), await compare.boundingBox()];
   const apart = two.x - one.x - one.width >= 4 || two.y - one.y - one.height >= 4;
