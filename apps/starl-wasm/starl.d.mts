@@ -551,6 +551,20 @@ export interface Member {
   condition: Condition;
 }
 
+/** Readings of sensors: lengths in metres, bearings in radians from the robot's heading, left positive. */
+export interface Sensors {
+  /** The bearing of what touches the bumper; null if nothing does, or without a bumper. */
+  bumper: number | null;
+  /** How far the proximity sensor's rays reach beyond the body's edge; null without that sensor. */
+  proximity_range: number | null;
+  /** `distance` is from the body's edge to what the ray meets; the range if it meets nothing. */
+  proximity: { bearing: number; distance: number }[];
+  /** How far the detector sees from the robot's centre; null without a detector. */
+  detector_range: number | null;
+  /** The things and robots that the detector sees, the nearest first. */
+  detections: { name: string; position: Point }[];
+}
+
 /** One robot at one moment. */
 export interface Robot {
   id: number;
@@ -564,6 +578,8 @@ export interface Robot {
   failure: string | null;
   motors_stuck: boolean;
   sensors_frozen: boolean;
+  /** What its program would read if it ran now; nothing while it does not run. */
+  sensors: Sensors;
   pose: Pose;
   twist: Twist;
   /** What it believes; `at` is in nanoseconds of its own clock. */

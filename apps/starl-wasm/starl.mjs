@@ -39,6 +39,10 @@ async function instantiate(source) {
 
 async function instantiateResponse(response) {
   if (!response.ok) throw new StarlError(`${response.url}: ${response.status} ${response.statusText}`);
+  // A browser compiles the module while it loads, and keeps the code, if the server names its type.
+  if (/^application\/wasm\b/i.test(response.headers.get("content-type") ?? "") && WebAssembly.instantiateStreaming) {
+    return (await WebAssembly.instantiateStreaming(response, {})).instance;
+  }
   return (await WebAssembly.instantiate(await response.arrayBuffer(), {})).instance;
 }
 

@@ -4,13 +4,18 @@ import { render } from "preact";
 import { App } from "./app/App.tsx";
 import { askHost, run, start } from "./app/context.ts";
 import { begin } from "./project/begin.ts";
+import { returning } from "./project/project.ts";
 import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/controls.css";
+import { stage } from "./world/world.ts";
 
 const page = document.getElementById("page");
 if (!page) throw new Error("index.html has an element #page");
 render(<App />, page);
+
+// Every visit except the first shows a run: what paints it loads beside everything else.
+if (returning || location.search) void stage().catch(() => undefined);
 
 start.value = await askHost();
 switch (start.value.mode) {

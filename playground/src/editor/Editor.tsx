@@ -27,7 +27,6 @@ export function Editor() {
           maxLength={80}
           onChange={(event) => rename(event.currentTarget.value)}
         />
-        <span class="spread" />
         {active.endsWith(".starl") && <Outline path={active} />}
         {active.endsWith(".starl") && (
           <button

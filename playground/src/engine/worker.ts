@@ -18,6 +18,9 @@ async function starl(): Promise<Starl> {
 
 let shown: Driver | Playback | null = null;
 
+/** The page draws and lists each robot; more than this would freeze it. */
+const MOST_ROBOTS = 10_000;
+
 const say = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
 const post = (update: Update, transfer: Transferable[]) => say({ update }, transfer);
 
@@ -65,6 +68,14 @@ async function open(source: Source): Promise<Opened> {
   shown = null;
   shown = source.kind === "again" ? again : await start(source);
   if (!shown) throw new Refused("nothing is open");
+  const robots = shown.opened.fleet.length;
+  if (robots > MOST_ROBOTS) {
+    await shown.close().catch(() => undefined);
+    shown = null;
+    throw new Refused(
+      `There are ${robots} robots. The page shows at most ${MOST_ROBOTS}; run more with the command \`starl run\`.`,
+    );
+  }
   return shown.opened;
 }
 

@@ -106,7 +106,25 @@ function body(robot: Robot): Fact[] {
     { name: "waypoints reached", value: String(robot.way_points_reached) },
   ];
   if (robot.motors_stuck) facts.push({ name: "motors", value: "stuck", mark: "bad" });
+  facts.push(...senses(robot));
   if (robot.sensors_frozen) facts.push({ name: "sensors", value: "frozen", mark: "bad" });
+  return facts;
+}
+
+/** The readings of those sensors that the robot carries. */
+function senses({ sensors }: Robot): Fact[] {
+  const facts: Fact[] = [];
+  if (sensors.bumper !== null) facts.push({ name: "bumper", value: `touched at ${degrees(sensors.bumper)}` });
+  if (sensors.proximity_range !== null) {
+    const [nearest] = [...sensors.proximity].sort((a, b) => a.distance - b.distance);
+    const met = nearest && nearest.distance < sensors.proximity_range;
+    const value = met ? `${nearest.distance.toFixed(3)} m at ${degrees(nearest.bearing)}` : "nothing";
+    facts.push({ name: "nearest by proximity", value, restless: true });
+  }
+  if (sensors.detector_range !== null) {
+    const value = sensors.detections.map(({ name }) => name).join(", ") || "nothing";
+    facts.push({ name: "detects", value });
+  }
   return facts;
 }
 

@@ -1,5 +1,6 @@
 // The initial project of the page: the one in its address, or the last one.
 
+import { part } from "../app/App.tsx";
 import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
 import { openExample } from "../gallery/examples.ts";
@@ -18,5 +19,8 @@ export async function begin(): Promise<void> {
     benchTab.value = "program";
     // Unfinished input causes no message.
     if (!(await runProject({ play: false }))) run.problem.value = null;
+  } else {
+    // A small screen shows one part at a time, and there is no run to see yet.
+    part.value = "write";
   }
 }

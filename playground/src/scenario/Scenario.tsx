@@ -36,7 +36,7 @@ export function Scenario() {
         )}
         {side.value === "form" && <Form />}
       </div>
-      <div class="row sides">
+      <div class="row ways">
         <div class="group">
           {(["form", "text"] as const).map((name) => (
             <button

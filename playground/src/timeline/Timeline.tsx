@@ -76,29 +76,40 @@ export function Timeline() {
   };
   return (
     <div class="timeline">
-      <canvas
-        ref={canvas}
-        style={{ height: `${HEIGHT}px` }}
-        role="slider"
-        tabIndex={0}
-        aria-label="Moment of the run"
-        aria-valuemin={0}
-        aria-valuemax={Number(end().toFixed(2))}
-        aria-valuenow={Number(run.now.value.toFixed(2))}
-        aria-valuetext={seconds(run.now.value)}
-        onPointerDown={onPointerDown}
-        onPointerMove={onPointerMove}
-        onPointerLeave={() => {
-          hint.value = null;
-        }}
-        onKeyDown={onKeyDown}
-      />
-      <div class="now" style={{ left: `${(100 * run.now.value) / Math.max(1e-9, end())}%` }} />
-      {hint.value && (
-        <div class="hint" style={{ left: `${hint.value.x}px` }}>
-          {hint.value.text}
-        </div>
-      )}
+      <ul
+        class="lane-names"
+        aria-hidden="true"
+        style={{ paddingTop: `${TOP}px`, lineHeight: `${LANE_HEIGHT}px` }}
+      >
+        {LANES.map(({ name }) => (
+          <li key={name}>{name}</li>
+        ))}
+      </ul>
+      <div class="strip">
+        <canvas
+          ref={canvas}
+          style={{ height: `${HEIGHT}px` }}
+          role="slider"
+          tabIndex={0}
+          aria-label="Moment of the run"
+          aria-valuemin={0}
+          aria-valuemax={Number(end().toFixed(2))}
+          aria-valuenow={Number(run.now.value.toFixed(2))}
+          aria-valuetext={seconds(run.now.value)}
+          onPointerDown={onPointerDown}
+          onPointerMove={onPointerMove}
+          onPointerLeave={() => {
+            hint.value = null;
+          }}
+          onKeyDown={onKeyDown}
+        />
+        <div class="now" style={{ left: `${(100 * run.now.value) / Math.max(1e-9, end())}%` }} />
+        {hint.value && (
+          <div class="hint" style={{ left: `${hint.value.x}px` }}>
+            {hint.value.text}
+          </div>
+        )}
+      </div>
     </div>
   );
 }

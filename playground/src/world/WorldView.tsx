@@ -45,6 +45,9 @@ export function WorldView() {
           This browser has no WebGL now, so the world is shown from above.
         </p>
       )}
+      {!run.opened.value && !run.opening.value && (
+        <p class="world-empty">Choose an example, or press Run, to see robots here.</p>
+      )}
       <Hint />
       <Coordinates />
     </div>

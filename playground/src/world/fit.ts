@@ -10,10 +10,11 @@ import type { Box, Place } from "./view.ts";
 const RECENT = 6;
 /** Of larger fleets, so many are looked at. */
 const LOOKED_AT = 250;
-/** Of more robots than this, those far from the others do not count. */
+/** Of more robots than this, those far from the others do not count: they would be dots. */
+const CROWD = 60;
+const SHARE_OF_CROWD = 0.5;
+/** Waypoints and obstacles count while they enlarge the view around the robots by at most a factor: for few, for many. */
 const FEW = 12;
-const SHARE_OF_MANY = 0.5;
-/** Waypoints and obstacles count while they enlarge the view around the robots by at most this factor. */
 const [AROUND_FEW, AROUND_MANY] = [6, 1.5];
 
 export function boxOf(places: Place[]): Box | null {
@@ -48,7 +49,7 @@ export function movingBox(poses: ArrayLike<number>, history: History, now: numbe
     const before = placeAt(earlier, at);
     if (Math.hypot(here.x - before.x, here.y - before.y, here.z - before.z) > 0.1) moved.push(here, before);
   }
-  const places = moved.length > 0 ? central(moved, 2 * FEW) : central(present, FEW);
+  const places = moved.length > 0 ? central(moved, 2 * CROWD) : central(present, CROWD);
   const robots = boxOf(places);
   if (!robots) return surroundings(world);
   const few = present.length <= FEW;
@@ -107,16 +108,16 @@ const placeAt = (poses: ArrayLike<number>, at: number): Place => ({
 
 const size = ({ low, high }: Box): number => Math.max(high.x - low.x, high.y - low.y);
 
-/** Those nearest to the middle, if there are many. */
-function central(places: Place[], few: number): Place[] {
-  if (places.length <= few) return places;
+/** Those nearest to the middle, if there are more than `most`. */
+function central(places: Place[], most: number): Place[] {
+  if (places.length <= most) return places;
   const middle = (axis: "x" | "y") =>
     places.map((place) => place[axis]).sort((a, b) => a - b)[places.length >> 1] ?? 0;
   const [x, y] = [middle("x"), middle("y")];
   const distance = (place: Place) => Math.hypot(place.x - x, place.y - y);
   return [...places]
     .sort((a, b) => distance(a) - distance(b))
-    .slice(0, Math.ceil(places.length * SHARE_OF_MANY));
+    .slice(0, Math.ceil(places.length * SHARE_OF_CROWD));
 }
 
 function padded(box: Box): Box {

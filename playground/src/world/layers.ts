@@ -9,6 +9,7 @@ export const LAYERS = {
   beliefs: "Believed positions",
   messages: "Messages",
   range: "Radio range of selected robots",
+  sensors: "Sensors of selected robots",
   marks: "Drawings of programs",
   wayPoints: "Waypoints",
   areas: "Areas",

@@ -1,6 +1,6 @@
 // Everything that a picture of the world is painted from, at the moment shown. Painters read it and change nothing.
 
-import type { Member, World } from "../engine/types.ts";
+import type { Member, Robot, World } from "../engine/types.ts";
 import type { History } from "../run/history.ts";
 import type { Happenings } from "./happenings.ts";
 import type { Layer } from "./layers.ts";
@@ -22,6 +22,8 @@ export interface Scene {
   history: History;
   happenings: Happenings;
   selected: number[];
+  /** Those of the selected robots whose state is known. */
+  robots: Robot[];
   message: { from: number; sequence: number } | null;
   /** Seconds of the run in which something that has just happened is still shown. */
   linger: number;

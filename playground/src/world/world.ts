@@ -21,6 +21,9 @@ const LOOK_EVERY = 400;
 /** How long what has just happened stays visible, s of real time at normal speed. */
 const LINGER = 0.45;
 
+/** Loads the painter of 3-D pictures. */
+export const stage = () => import("./three/stage.ts");
+
 export class WorldScreen {
   readonly view = new View();
   readonly scene: Scene;
@@ -37,6 +40,7 @@ export class WorldScreen {
   #opened: unknown = null;
   #stops: (() => void)[] = [];
   #disposed = false;
+  #loading = false;
 
   /** `onFlat` is called when there is no WebGL, so that the world can be shown from above only. */
   constructor(
@@ -56,8 +60,10 @@ export class WorldScreen {
       () => observer.disconnect(),
       effect(() => this.#changed()),
       effect(() => this.#look()),
+      effect(() => {
+        if (run.opening.value || run.opened.value) void this.#load();
+      }),
     );
-    void this.#load();
   }
 
   dispose(): void {
@@ -93,9 +99,12 @@ export class WorldScreen {
     });
   }
 
+  /** The painter is large, so it is loaded with the first run. */
   async #load(): Promise<void> {
+    if (this.#loading) return;
+    this.#loading = true;
     try {
-      const { Stage } = await import("./three/stage.ts");
+      const { Stage } = await stage();
       if (this.#disposed) return;
       const canvas = this.#lower();
       canvas.addEventListener("webglcontextlost", (event) => {
@@ -148,6 +157,7 @@ export class WorldScreen {
     scene.states = run.states.value;
     scene.world = run.world.value;
     scene.selected = run.selected.value;
+    scene.robots = run.robots.value;
     scene.message = run.message.value;
     scene.linger = Math.min(5, Math.max(0.02, LINGER * run.speed.value));
     scene.hidden = hidden.value;
@@ -244,6 +254,7 @@ function emptyScene(element: Element): Scene {
     history: run.history,
     happenings: new Happenings(),
     selected: [],
+    robots: [],
     message: null,
     linger: LINGER,
     hidden: hidden.value,

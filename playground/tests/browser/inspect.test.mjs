@@ -169,12 +169,22 @@ test("two seeds part at their first difference", async () => {
   await play();
   await over();
   await tab("Compare");
+  await page.getByRole("button", { name: "Keep this run" }).waitFor();
+  const [keep, compare] = await page.locator(".compare .acts button").all();
+  const [one, two] = [await keep.boundingBox(), await compare.boundingBox()];
+  const apart = two.x - one.x - one.width >= 4 || two.y - one.y - one.height >= 4;
+  assert.ok(apart, "the buttons stand apart though no other panel was shown");
   await page.getByLabel("Another seed").fill("1");
   await page.getByRole("button", { name: "Compare with this seed" }).click();
   await page.getByText(/No record differs/).waitFor();
   await page.getByLabel("Another seed").fill("2");
   await page.getByRole("button", { name: "Compare with this seed" }).click();
   await page.getByRole("heading", { name: /The first difference is at/ }).waitFor();
-  assert.equal(await page.locator(".sides .differs").count(), 2);
+  const differing = page.locator(".sides .differs .what");
+  assert.equal(await differing.count(), 2);
+  for (const text of await differing.all()) {
+    const cut = await text.evaluate((element) => element.scrollHeight > element.clientHeight + 1);
+    assert.equal(cut, false, "the text that differs is shown whole");
+  }
   await end();
 });

@@ -2,10 +2,11 @@
 // for people who cannot use a mouse or see colours.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { DIST, launch, serve, visit } from "./support.mjs";
 
 const golden = JSON.parse(
   readFileSync(new URL("../../../apps/starl-wasm/golden.json", import.meta.url), "utf8"),
@@ -55,6 +56,26 @@ test("Race runs from a cold page to its goal, with the digest of the command, an
   assert.deepEqual(others, []);
   assert.deepEqual(errors, []);
   await context.close();
+});
+
+/** This much is 1.5 MB by Brotli, which takes too long to compute here: tests/speed.mjs does. */
+const MOST_BYTES = 6_100_000;
+
+test("a first visit is small: it loads neither the painter of runs nor the editor", async () => {
+  const { page, context } = await visit(browser, "about:blank");
+  const loaded = new Set();
+  page.on("request", (request) => loaded.add(new URL(request.url()).pathname));
+  await page.goto(site.url);
+  await page.locator(".card").first().waitFor();
+  await context.close();
+  // Pictures of examples load as they come into view, and the service worker fetches the rest for later.
+  const parts = [...loaded].filter((path) => path !== "/sw.js" && !path.endsWith(".svg"));
+  const size = (path) => statSync(join(DIST, path === "/" ? "index.html" : path)).size;
+  const whole = parts.reduce((sum, path) => sum + size(path), 0);
+  assert.ok(
+    whole <= MOST_BYTES,
+    `${whole} bytes: ${parts.map((path) => `${path} ${size(path)}`).join(", ")}`,
+  );
 });
 
 test("steps back and forth lead to the same digest", async () => {

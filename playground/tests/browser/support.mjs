@@ -58,3 +58,20 @@ export async function visit(browser, url, options = {}) {
   await page.goto(url);
   return { page, context, errors };
 }
+
+/** Opens the page with a project that an earlier visit has left. */
+export async function revisit(browser, url, { name, files, scenario }, options = {}) {
+  const visited = await visit(browser, url, options);
+  await visited.page.evaluate(
+    ({ name, files, scenario }) => {
+      const active = Object.keys(files)[0];
+      const project = { id: "test", name, files, active, scenario, example: null, touched: true, changed: 1 };
+      localStorage.setItem("starl.project.test", JSON.stringify(project));
+      localStorage.setItem("starl.projects", JSON.stringify([{ id: "test", name, changed: 1 }]));
+      localStorage.setItem("starl.current", "test");
+    },
+    { name, files, scenario },
+  );
+  await visited.page.reload();
+  return visited;
+}

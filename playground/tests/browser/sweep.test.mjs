@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { launch, revisit, serve } from "./support.mjs";
 
 const TESTS = new URL("../../../apps/starl-wasm/tests/it/", import.meta.url);
 /** Robots that rely on hearing numbers in order, which the network does not promise. */
@@ -24,28 +24,10 @@ after(async () => {
 
 /** Opens the page with the project of an earlier visit, at its sweep. */
 async function open(files, scenario) {
-  const visited = await visit(browser, site.url, { viewport: { width: 1060, height: 700 } });
+  const project = { name: "Ordered", files, scenario };
+  const visited = await revisit(browser, site.url, project, { viewport: { width: 1060, height: 700 } });
   const { page, errors } = visited;
   page.setDefaultTimeout(20_000);
-  await page.evaluate(
-    ({ files, scenario }) => {
-      const project = {
-        id: "test",
-        name: "Ordered",
-        files,
-        active: Object.keys(files)[0],
-        scenario,
-        example: null,
-        touched: true,
-        changed: 1,
-      };
-      localStorage.setItem("starl.project.test", JSON.stringify(project));
-      localStorage.setItem("starl.projects", JSON.stringify([{ id: "test", name: "Ordered", changed: 1 }]));
-      localStorage.setItem("starl.current", "test");
-    },
-    { files, scenario },
-  );
-  await page.reload();
   await page.getByRole("tab", { name: "Sweep" }).click();
   await page.getByRole("checkbox", { name: /calm/ }).waitFor();
   // A static host has no start.json, which the browser reports.

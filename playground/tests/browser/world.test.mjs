@@ -47,3 +47,35 @@ test("the view of the world stands still when nothing happens, and measures with
   assert.deepEqual(errors, []);
   await context.close();
 });
+
+test("the sensors of a chosen robot are drawn, and can be hidden", async () => {
+  const { page, context, errors } = await visit(browser, `${server.url}?example=diffusion`);
+  await page.locator(".play:enabled").waitFor();
+  await page.getByLabel("To the next event").click();
+  await page.getByRole("listbox", { name: "Robots" }).getByRole("option").first().click();
+  const nearest = page.locator(".looked tr", {
+    has: page.getByRole("rowheader", { name: "nearest by proximity" }),
+  });
+  await nearest.getByText(/^0\.\d+ m at /).waitFor();
+  await page.getByRole("button", { name: "Layers" }).click();
+  const segments = () =>
+    page.evaluate(async () => {
+      const pen = CanvasRenderingContext2D.prototype;
+      const { lineTo } = pen;
+      let count = 0;
+      pen.lineTo = function (...to) {
+        count++;
+        return lineTo.apply(this, to);
+      };
+      document.querySelector(".world-picture").dispatchEvent(new KeyboardEvent("keydown", { key: "+" }));
+      await new Promise((resolve) => setTimeout(resolve, 400));
+      pen.lineTo = lineTo;
+      return count;
+    });
+  const shown = await segments();
+  await page.getByLabel("Sensors of selected robots").uncheck();
+  const left = await segments();
+  assert.ok(shown >= left + 12, `${shown} lines with twelve rays, ${left} without`);
+  assert.deepEqual(errors, []);
+  await context.close();
+});

@@ -89,6 +89,19 @@ test("a view fits robots that move, not one far away that stands", () => {
   expect(box?.high.y).toBeGreaterThan(1.9);
 });
 
+test.each([
+  ["all of a fleet that spreads out", 20, true],
+  ["the middle of a crowd", 100, false],
+])("a view fits %s", (_, count, whole) => {
+  const start = new Float32Array(count * POSE_NUMBERS);
+  const history = new History();
+  history.add(Float64Array.of(0, count, ...start));
+  const now = start.slice();
+  for (let robot = 0; robot < count; robot++) now[robot * POSE_NUMBERS] = robot - count / 2;
+  const box = movingBox(now, history, 1, { obstacles: [], way_points: [], things: [] });
+  expect((box?.low.x ?? 0) < -count / 2).toBe(whole);
+});
+
 test("a wall of two corners is hit near it, a polygon inside", () => {
   const wall = [
     { x: 0, y: 0 },

@@ -1,5 +1,6 @@
 //! The state of one robot at the present moment, as plain data.
 
+use super::SensorReport;
 use serde::Serialize;
 use starl_core::{Command, Estimate, Port, Pose, RobotId, TimerKey, Twist};
 use starl_lang::robot::{PrimitiveState, RobotProgram};
@@ -26,6 +27,8 @@ pub struct RobotReport {
     pub motors_stuck: bool,
     /// Its sensors and positioning repeat their last readings.
     pub sensors_frozen: bool,
+    /// The readings of its sensors.
+    pub sensors: SensorReport,
     /// Its true pose.
     pub pose: Pose,
     /// Its true velocity.
@@ -176,6 +179,7 @@ impl RobotReport {
                 .map(|failure| failure.text.to_string()),
             motors_stuck: simulation.has_stuck_motors(robot),
             sensors_frozen: simulation.has_frozen_sensors(robot),
+            sensors: SensorReport::of(run, robot),
             pose: state.pose,
             twist: state.twist,
             estimate: *node.estimate(),

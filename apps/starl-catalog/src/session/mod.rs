@@ -13,6 +13,7 @@ mod open;
 mod poses;
 mod recorded;
 mod report;
+mod senses;
 
 pub use breakpoint::{Breakpoint, Stopped};
 pub use diagnostic::{Diagnostic, Edit, Related, check};
@@ -30,6 +31,7 @@ pub use report::{
     Excused, Failure, Member, Messages, Progress, Property, Report, Standing, Status, Thing,
     Violation, World, fleet, states,
 };
+pub use senses::{DetectionReport, RayReport, SensorReport};
 
 use crate::Application;
 use crate::programs::Registry;

@@ -36,7 +36,7 @@ fn guards_show_the_next_actions() {
 
 #[test]
 fn inspection_does_not_change_the_run() {
-    for example in ["mutex", "memory", "search", "light-painting", "race"] {
+    for example in ["mutex", "memory", "search", "diffusion", "race"] {
         let open = || Client::open(json!({}), json!({"scenario": example, "seed": "5"}));
         let (mut watched, mut alone) = (open(), open());
         let robots = watched
@@ -58,6 +58,39 @@ fn inspection_does_not_change_the_run() {
         alone.ask("run", json!({"until": 3}));
         assert_eq!(watched.digest(), alone.digest(), "{example}");
     }
+}
+
+#[test]
+fn sensors_read_the_world_around_a_robot() {
+    let mut client = Client::open(json!({}), json!({"scenario": "diffusion"}));
+    client.ask("run", json!({"until": 1.0}));
+    let sensors = client.ask("robot", json!({"robot": 0}))["sensors"].clone();
+    assert_eq!(sensors["proximity_range"], 0.4);
+    assert!(sensors["detector_range"].is_null(), "it has no detector");
+    let rays = sensors["proximity"].as_array().expect("a list");
+    assert_eq!(rays.len(), 12);
+    let distances = rays.iter().filter_map(|ray| ray["distance"].as_f64());
+    assert!(distances.clone().all(|distance| distance <= 0.4));
+    assert!(
+        distances.clone().any(|distance| distance < 0.4),
+        "the robots start close together"
+    );
+
+    let mut client = Client::open(json!({}), json!({"scenario": "intersection"}));
+    client.ask("run", json!({"until": 5.0}));
+    let fleet = client.ask("fleet", json!({}));
+    let fleet = fleet.as_array().expect("a list");
+    let sees = |client: &mut Client, robot: usize| {
+        client.ask("robot", json!({"robot": robot}))["sensors"]["detections"].clone()
+    };
+    let seen = (0..fleet.len()).map(|robot| sees(&mut client, robot));
+    let seen: Vec<_> = seen
+        .flat_map(|list| list.as_array().cloned())
+        .flatten()
+        .collect();
+    assert!(!seen.is_empty(), "cars see each other");
+    let known = |name| fleet.iter().any(|member| member["name"] == name);
+    assert!(seen.iter().all(|seen| known(seen["name"].clone())));
 }
 
 #[test]

@@ -9,6 +9,7 @@ import type { View } from "../view.ts";
 import { Labels } from "./labels.ts";
 import { drawMessages } from "./messages.ts";
 import { Pen } from "./pen.ts";
+import { drawSensors } from "./sensors.ts";
 
 /** From here on true and believed position differ visibly: px, radians. */
 const [APART, TURNED] = [3.5, 0.2];
@@ -41,6 +42,7 @@ export class Overlay {
     context.clearRect(0, 0, view.width, view.height);
     context.lineCap = "round";
     if (!scene.hidden.has("range")) this.#range(scene);
+    if (!scene.hidden.has("sensors")) drawSensors(this.#pen, scene);
     if (!scene.hidden.has("beliefs")) this.#beliefs(scene);
     this.#selection(scene);
     if (!scene.hidden.has("events")) this.#flashes(scene);
