@@ -97,7 +97,7 @@ impl Leases {
     }
 
     /// Robots do not stand all at once, but within this time: on average the first of them does after a quarter of the
-    /// time that an answer takes at most. Each further candidacy in vain lengthens it by a lease, for which votes are
+    /// time that an answer takes at most. Each candidacy after the first lengthens it by a lease, for which votes are
     /// bound. Otherwise candidates that miss each other's claims would outbid each other, possibly for ever.
     fn spread(&self, scene: &Scene<'_, '_>) -> Duration {
         let participants = scene.others.len() as u64 + 1;
