@@ -56,7 +56,7 @@ fn ballots() {
 
 #[test]
 fn leases() {
-    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (18_167, 69_730, 22));
+    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (27_070, 104_659, 22));
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn leases() {
 fn leases_that_end() {
     assert_eq!(
         explore(Algorithm::Leases, 2, 0, 0),
-        (941_298, 4_248_331, 30)
+        (1_388_547, 6_165_448, 30)
     );
 }
 
@@ -72,7 +72,7 @@ fn leases_that_end() {
 fn leases_with_a_crash() {
     assert_eq!(
         explore(Algorithm::Leases, 1, 0, 1),
-        (381_799, 1_526_507, 26)
+        (537_370, 2_116_300, 26)
     );
 }
 

@@ -30,6 +30,7 @@ mod running;
 
 pub use options::{Algorithm, Options};
 
+use alloc::boxed::Box;
 use alloc::collections::{BTreeSet, VecDeque};
 use alloc::vec::Vec;
 use ballots::Ballots;
@@ -81,7 +82,7 @@ pub enum Change {
 enum Algorithms {
     Ballots(Ballots),
     Bully(Bully),
-    Leases(Leases),
+    Leases(Box<Leases>),
 }
 
 impl Algorithms {
@@ -89,7 +90,7 @@ impl Algorithms {
         match self {
             Algorithms::Ballots(rules) => rules,
             Algorithms::Bully(rules) => rules,
-            Algorithms::Leases(rules) => rules,
+            Algorithms::Leases(rules) => &**rules,
         }
     }
 
@@ -97,7 +98,7 @@ impl Algorithms {
         match self {
             Algorithms::Ballots(rules) => rules,
             Algorithms::Bully(rules) => rules,
-            Algorithms::Leases(rules) => rules,
+            Algorithms::Leases(rules) => &mut **rules,
         }
     }
 }
@@ -116,7 +117,7 @@ impl LeaderElection {
             rules: match options.algorithm {
                 Algorithm::Ballots => Algorithms::Ballots(Ballots::default()),
                 Algorithm::Bully => Algorithms::Bully(Bully::default()),
-                Algorithm::Leases => Algorithms::Leases(Leases::default()),
+                Algorithm::Leases => Algorithms::Leases(Box::default()),
             },
             options,
             has_begun: false,

@@ -17,6 +17,7 @@ mod election_in_parts;
 mod election_is_safe_under_faults;
 mod election_learns_before_it_votes;
 mod election_message_counts;
+mod election_over_late_datagrams;
 mod election_recovers_from_any_state;
 mod election_replaces_leaders;
 mod election_survives_garbage;

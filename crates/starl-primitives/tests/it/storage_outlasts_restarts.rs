@@ -179,7 +179,13 @@ fn epochs_grow_though_all_voters_crash_at_once() {
         stormy.storms(20);
         stormy.world.run_for(SECOND * 30);
         let everyone: Vec<usize> = (0..stormy.world.size()).collect();
-        assert!(agreed(&stormy.world, &everyone).is_some(), "seed {seed}");
+        // Where datagrams are lost, a leader may just have been lost.
+        let mut patience = 5;
+        while agreed(&stormy.world, &everyone).is_none() {
+            stormy.world.run_for(SECOND);
+            patience -= 1;
+            assert!(patience > 0, "seed {seed}");
+        }
         let crashes: Vec<(usize, u32)> = stormy
             .crashes
             .iter()

@@ -25,6 +25,8 @@ pub(super) struct Register {
     last: Id,
     /// Whether some state was corrupted, so that copies may hold what was never written.
     corrupted: bool,
+    /// The number of robots.
+    fleet: usize,
     /// The robots that are down, and whether the network is partitioned.
     down: BTreeSet<RobotId>,
     is_parted: bool,
@@ -41,8 +43,8 @@ struct Instance {
     operations: BTreeMap<(RobotId, u32), Operation>,
     /// Operations that will not end, but may still take effect on a register that is judged again.
     loose: Vec<Operation>,
-    /// The robots that have kept copies at some time, and those that do now.
-    members: BTreeSet<RobotId>,
+    /// The size of the fleet, of which majorities are, and the robots that keep copies now.
+    fleet: usize,
     up: BTreeSet<RobotId>,
     /// Whether a majority has been down or recovering at once, having forgotten all, so that values may be lost.
     is_lost: bool,
@@ -134,9 +136,9 @@ impl Instance {
 
     /// A robot has lost its copies. Whether that made a majority, so that values may be lost.
     fn forgot(&mut self, robot: RobotId) -> bool {
-        let had_majority = self.up.len() > self.members.len() / 2;
+        let had_majority = self.has_majority();
         self.up.remove(&robot);
-        let has_majority = self.up.len() > self.members.len() / 2;
+        let has_majority = self.has_majority();
         let loses = had_majority && !has_majority;
         if loses {
             self.is_lost = true;
@@ -148,7 +150,7 @@ impl Instance {
     /// Something has happened that may bring back what was lost, or a majority is there again.
     fn stir(&mut self, at: Time, is_whole: bool) {
         self.loose.clear();
-        let has_majority = self.up.len() > self.members.len() / 2;
+        let has_majority = self.has_majority();
         self.quiet_since = match has_majority && is_whole {
             true => at,
             false => Time::NEVER,
@@ -180,21 +182,32 @@ impl Instance {
     }
 
     fn is_up(&mut self, robot: RobotId) {
-        self.members.insert(robot);
         self.up.insert(robot);
+    }
+
+    fn has_majority(&self) -> bool {
+        self.up.len() > self.fleet / 2
     }
 }
 
 impl Register {
     pub fn new(setting: &Setting) -> Register {
         Register {
+            fleet: setting.bodies.len(),
             keeps_storage: setting.keeps_storage,
             ..Register::default()
         }
     }
 
     fn reported(&mut self, report: &Report<'_, RegisterEvent>, found: &mut Vec<Violation>) {
-        let instance = self.instances.entry(report.port).or_default();
+        let fleet = self.fleet;
+        let instance = self
+            .instances
+            .entry(report.port)
+            .or_insert_with(|| Instance {
+                fleet,
+                ..Instance::default()
+            });
         if let RegisterEvent::Up { .. } = report.event {
             instance.is_up(report.robot);
             return self.stir(report.at);

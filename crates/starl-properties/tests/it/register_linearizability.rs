@@ -143,6 +143,18 @@ fn a_forgetful_majority_and_a_corruption_are_excused() {
     assert_none(&corrupted.verdict(5000));
 }
 
+/// One robot of three that crashes before the others have started is no majority.
+#[test]
+fn a_crash_before_the_fleet_has_started_is_no_excuse() {
+    let mut bad = story(&[(1, "write", 300, 400, 5), (2, "read", 500, 600, 0)]);
+    for (at, robot, life) in [(50, 0, 1), (200, 0, 2), (200, 1, 1), (200, 2, 1)] {
+        bad.report(at, robot, ("register", "up"), [("life", Value::Int(life))]);
+    }
+    bad.fault(100, Some(0), "crash");
+    bad.fault(150, Some(0), "restart");
+    assert_only(&bad.verdict(2000), "register.linearizability", 600, &[2]);
+}
+
 #[test]
 fn stored_values_are_not_forgotten_until_storage_is_lost() {
     let mut kept = story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);

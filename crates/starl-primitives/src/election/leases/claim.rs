@@ -41,6 +41,7 @@ impl Leases {
     pub(super) fn stand(&mut self, scene: &mut Scene<'_, '_>) {
         let known = self.known.max(self.promise.epoch).max(self.latest);
         let epoch = Epoch::next(known, scene.now(), scene.me());
+        self.notice_candidacy(scene, epoch);
         self.known = epoch;
         self.claim = Some(Standing {
             epoch,
@@ -69,7 +70,11 @@ impl Leases {
         claim.repeat_at = now
             + match leads {
                 true => scene.options.period(),
-                false => scene.options.timeout(claim.repetitions),
+                // Rarer claims would not find a majority within one term over a network that loses many.
+                false => {
+                    let timeout = scene.options.timeout(claim.repetitions);
+                    timeout.min(scene.options.period())
+                }
             };
         claim.repetitions = match leads {
             true => 0,
@@ -118,6 +123,7 @@ impl Leases {
             Some(shown) if shown.epoch == epoch => shown.until = shown.until.max(until),
             _ => {
                 self.shown = Some(Shown { epoch, until });
+                self.candidacies = 0;
                 self.latest = epoch;
                 self.promise.epoch = self.promise.epoch.max(epoch);
                 let remaining = until.since(now);

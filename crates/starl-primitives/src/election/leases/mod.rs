@@ -50,6 +50,8 @@ pub(super) struct Leases {
     claim: Option<Standing>,
     /// Counts this robot's claims.
     number: u32,
+    /// How many candidacies it has noticed since there was a leader; a majority of the participants at most.
+    candidacies: u32,
     shown: Option<Shown>,
     /// It does not stand earlier.
     stand_at: Time,
@@ -86,11 +88,25 @@ impl Leases {
         self.known = self.known.max(epoch);
     }
 
-    /// Robots do not stand all at once: on average the first of them does after a quarter of the time that
-    /// an answer takes at most.
+    /// A robot, possibly this one, stands in this epoch.
+    fn notice_candidacy(&mut self, scene: &Scene<'_, '_>, epoch: Epoch) {
+        if epoch > self.known && self.shown.is_none() {
+            let most = scene.majority() as u32;
+            self.candidacies = self.candidacies.saturating_add(1).min(most);
+        }
+    }
+
+    /// Robots do not stand all at once, but within this time: on average the first of them does after a quarter of the
+    /// time that an answer takes at most. Each candidacy after the first lengthens it by a lease, for which votes are
+    /// bound. Otherwise candidates that miss each other's claims would outbid each other, possibly for ever.
+    fn spread(&self, scene: &Scene<'_, '_>) -> Duration {
+        let participants = scene.others.len() as u64 + 1;
+        let further = u64::from(self.candidacies).saturating_sub(1);
+        scene.options.timeout(0) * participants / 4 + scene.options.lease * further
+    }
+
     fn postpone(&mut self, scene: &mut Scene<'_, '_>) {
-        let spread = scene.options.timeout(0) * (scene.others.len() as u64 + 1) / 4;
-        let pause = spread.seconds() * scene.robot.random().uniform();
+        let pause = self.spread(scene).seconds() * scene.robot.random().uniform();
         self.stand_at = scene.now() + Duration::from_seconds_f64(pause);
     }
 
@@ -105,6 +121,7 @@ impl Leases {
             Some(shown) if shown.epoch == epoch => shown.until = shown.until.max(until),
             _ => self.shown = Some(Shown { epoch, until }),
         }
+        self.candidacies = 0;
         self.latest = epoch;
         self.give_up(scene);
     }
@@ -131,9 +148,10 @@ impl Leases {
         self.put_off.take_if(|(from, claim)| {
             !claim.epoch.is_plausible(now) || claim.epoch.leader() != *from
         });
+        self.candidacies = self.candidacies.min(scene.majority() as u32);
         no_later(&mut self.up_since, now);
         no_later(&mut self.promise.until, now + options.lease);
-        let spread = options.timeout(0) * (scene.others.len() as u64 + 1);
+        let spread = self.spread(scene);
         no_later(&mut self.stand_at, now + spread);
         let me = scene.me();
         self.shown.take_if(|shown| {
@@ -191,6 +209,7 @@ impl Rules for Leases {
         self.make_plausible(scene);
         self.recover(scene);
         if scene.stands && !self.stood {
+            self.candidacies = 0;
             self.postpone(scene);
         }
         self.stood = scene.stands;
@@ -251,6 +270,7 @@ impl Rules for Leases {
             (claim.epoch, claim.number) = (Epoch::random(random), random.bits());
         }
         self.number = random.bits();
+        self.candidacies = random.bits();
         self.up_since = time(random);
         self.stand_at = time(random);
         if let Some(claim) = &mut self.claim {

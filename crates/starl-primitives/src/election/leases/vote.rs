@@ -15,6 +15,7 @@ impl Leases {
         if epoch == self.voided {
             return;
         }
+        self.notice_candidacy(scene, epoch);
         self.learn(epoch);
         if !claim.remaining.is_zero() {
             self.follow(scene, epoch, claim.remaining);

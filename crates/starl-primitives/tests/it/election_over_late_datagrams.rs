@@ -1,0 +1,65 @@
+//! Large fleets find a leader although a third of the datagrams is lost and a fifth arrives 10 s late.
+
+use crate::harness::elector::{ALGORITHMS, Elector, by, election};
+use crate::harness::{Wire, World};
+use starl_core::Duration;
+
+const SECOND: Duration = Duration::from_seconds(1);
+const STEP: Duration = Duration::from_millis(50);
+
+fn late() -> Wire {
+    Wire {
+        loss: 0.3,
+        duplication: 0.3,
+        delay_ms: (10, 20),
+        late: (0.2, 10_000),
+        ..Wire::perfect()
+    }
+}
+
+/// Runs until each of these robots has shown a leader other than `gone`; gives the time it took.
+fn led(world: &mut World, robots: &[usize], gone: Option<usize>) -> Duration {
+    let since = world.now;
+    let mut waiting = robots.to_vec();
+    while !waiting.is_empty() {
+        world.run_for(STEP);
+        assert!(world.now.since(since) < SECOND * 200, "no leader");
+        let is_leader = |&robot: &usize| {
+            let leader = election(world, robot).leader();
+            leader.is_some_and(|leader| Some(leader.index()) != gone)
+        };
+        waiting.retain(|robot| !is_leader(robot));
+    }
+    world.now.since(since)
+}
+
+/// Candidates that miss each other's claims outbid each other, but not for ever.
+#[test]
+fn a_large_fleet_has_a_leader_within_the_bound_of_the_checker() {
+    for algorithm in ALGORITHMS {
+        for count in [5, 12, 15, 30] {
+            let (mut first, mut next) = (Vec::new(), Vec::new());
+            for seed in 0..20 {
+                let make = Elector::eager(by(algorithm));
+                let mut world = World::new(count, seed, late(), None, make);
+                let all: Vec<usize> = (0..count).collect();
+                first.push(led(&mut world, &all, None));
+                world.run_for(SECOND * 5);
+                let mut shown = all.iter().map(|&robot| election(&world, robot).leader());
+                let Some(leader) = shown.find_map(|leader| leader) else {
+                    continue;
+                };
+                world.crash(leader.index());
+                let is_up = |robot: &usize| *robot != leader.index();
+                let rest: Vec<usize> = all.into_iter().filter(is_up).collect();
+                next.push(led(&mut world, &rest, Some(leader.index())));
+            }
+            for times in [&mut first, &mut next] {
+                times.sort_unstable();
+                let (median, longest) = (times[times.len() / 2], times[times.len() - 1]);
+                println!("{algorithm:?}, {count} robots: median {median}, longest {longest}");
+                assert!(longest < SECOND * 35, "{algorithm:?}, {count}: {longest}");
+            }
+        }
+    }
+}
