@@ -179,9 +179,7 @@ impl Steps {
     }
 
     fn take(&mut self, record: Record) {
-        while let Some((robot, at)) = self.unrecorded.pop_if(|(_, at)| *at <= record.at) {
-            self.lose(robot, at);
-        }
+        self.lose_until(record.at);
         let number = record.at.0 / self.step;
         // Datagrams dropped in a sender's queue are recorded ahead of their time.
         if number > self.number && !matches!(record.event, Event::Dropped { .. }) {
@@ -189,6 +187,13 @@ impl Steps {
             self.number = number;
         }
         self.records.push(record);
+    }
+
+    /// Takes note of the robots whose records end up to this time.
+    fn lose_until(&mut self, now: Time) {
+        while let Some((robot, at)) = self.unrecorded.pop_if(|(_, at)| *at <= now) {
+            self.lose(robot, at);
+        }
     }
 
     /// The records of a robot end. Its body may be anywhere, and nothing is known of its commands.
@@ -211,6 +216,7 @@ impl Steps {
     }
 
     fn finish(mut self, end: Time) -> Watch {
+        self.lose_until(end);
         self.close(end);
         self.watch
     }

@@ -223,6 +223,43 @@ fn a_host_can_set_the_bounds_of_its_properties() {
     );
 }
 
+/// A robot whose records end early may hold what another waits for, and may release it unseen.
+#[test]
+fn a_fleet_is_judged_only_as_far_as_all_its_robots_are_recorded() {
+    let folder = folder("verify_unrecorded");
+    let bodies = r#"[{"radius":0.2,"height":0.3,"workspace":"Ground"},{"radius":0.2,"height":0.3,"workspace":"Ground"}]"#;
+    let setting = |unrecorded: &str| {
+        format!(
+            r#"{{ "bodies": {bodies}, "properties": {{ "mutex_bound": 5000000000 }}, "unrecorded": [{unrecorded}] }}"#
+        )
+    };
+    let verdict = |name: &str, unrecorded: &str, records: &[Record], property: &str| {
+        foreign(&folder.join(name), &setting(unrecorded), records, 20.0);
+        let account = json(&starl(&folder, &["verify", name, "--json"]));
+        entry(&account, property)["verdict"].clone()
+    };
+    let lost = "[1, 4000000000]";
+    // Robot 0 waits from 2 s on; the bound passes at 7 s.
+    let waits = [acquire(2.0, 0)];
+    let interference = "mutex.non_interference";
+    assert_eq!(verdict("a.mcap", "", &waits, interference), "violated");
+    assert_ne!(verdict("b.mcap", lost, &waits, interference), "violated");
+    // Both hold the door: before the records end it is a violation, after that nothing is known.
+    let both = |at: f64| [enter(1.0, 1), enter(at, 0)];
+    assert_eq!(
+        verdict("c.mcap", lost, &both(3.0), "mutex.safety"),
+        "violated"
+    );
+    assert_ne!(
+        verdict("d.mcap", lost, &both(5.0), "mutex.safety"),
+        "violated"
+    );
+    assert_eq!(
+        verdict("e.mcap", "", &both(5.0), "mutex.safety"),
+        "violated"
+    );
+}
+
 #[test]
 fn bad_input_is_one_message_and_the_status_2() {
     let folder = folder("verify_bad");
