@@ -189,7 +189,7 @@ impl Steps {
         self.records.push(record);
     }
 
-    /// Takes note of the robots whose records end up to this time.
+    /// Ends the records of the robots that are not recorded beyond this time.
     fn lose_until(&mut self, now: Time) {
         while let Some((robot, at)) = self.unrecorded.pop_if(|(_, at)| *at <= now) {
             self.lose(robot, at);

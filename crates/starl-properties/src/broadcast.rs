@@ -55,6 +55,7 @@ impl Broadcast {
                 self.sent(at, report.message(robot, *message), *order);
             }
             BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                self.health.delivered(*from, robot);
                 self.delivered(report.message(*from, *message), robot);
             }
             BroadcastEvent::Transfer(TransferEvent::Fail { message, to }) => {

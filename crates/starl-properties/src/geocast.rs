@@ -102,6 +102,7 @@ impl Geocast {
                 self.outstanding.insert(key, at + self.bound, message);
             }
             GeocastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                self.health.delivered(*from, robot);
                 let key = report.message(*from, *message);
                 self.takes(at, robot, &key, found);
                 self.delivered(at, robot, key, found);

@@ -3,12 +3,13 @@
 //! A primitive's properties are promised for robots that work. Faults only ever excuse; they are read
 //! from the trace like everything else. That two robots are in different parts of a partition shows in
 //! the datagrams that are dropped for it: a partition that swallowed no datagram from one to the other
-//! kept nothing from it.
+//! kept nothing from it. Two robots that do not know each other's present lives have to hear each other before the
+//! first message can be delivered.
 
 use crate::Excuse;
 use starl_core::event::{DropReason, Event, Fault};
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The condition that a guarantee demands of a robot; each includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,6 +70,8 @@ pub(super) struct Health {
     cuts: BTreeMap<(RobotId, RobotId), Time>,
     /// Cuts older than this are forgotten.
     memory: Duration,
+    /// Senders and receivers: a message has been delivered since both started.
+    met: BTreeSet<(RobotId, RobotId)>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -91,6 +94,7 @@ impl Health {
             robots: vec![Condition::default(); robots],
             cuts: BTreeMap::new(),
             memory,
+            met: BTreeSet::new(),
         }
     }
 
@@ -157,11 +161,21 @@ impl Health {
         let unwell = [from, to]
             .into_iter()
             .find(|robot| !self.well_since(*robot, since));
-        let parted = (!self.linked_since(from, to, since)).then_some(Excuse::Partition);
+        let is_heard = self.met.contains(&(from, to)) || self.linked_since(to, from, since);
+        let is_linked = is_heard && self.linked_since(from, to, since);
+        let parted = (!is_linked).then_some(Excuse::Partition);
         unwell.map(|robot| self.excuse(robot)).or(parted)
     }
 
+    /// A message from one robot was delivered to another.
+    pub fn delivered(&mut self, from: RobotId, to: RobotId) {
+        self.met.insert((from, to));
+    }
+
     fn change(&mut self, robot: RobotId, at: Time, change: Change<'_>) {
+        if change.is_end() {
+            self.met.retain(|&(from, to)| from != robot && to != robot);
+        }
         let needs = self.needs;
         let Some(condition) = self.robots.get_mut(robot.index()) else {
             return;

@@ -59,6 +59,7 @@ impl Unicast {
                 }
             }
             UnicastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                self.health.delivered(*from, robot);
                 let key = report.message(*from, *message);
                 self.owed.remove(&(key, robot));
                 if let Some(what) = self.taken.take(robot, &key, Some(robot)) {

@@ -19,7 +19,7 @@ fn robot_2_hears_nothing() -> Story {
     story
 }
 
-fn dropped(story: &mut Story, millis: u64, (from, to): (u32, u32), reason: DropReason) {
+pub fn dropped(story: &mut Story, millis: u64, (from, to): (u32, u32), reason: DropReason) {
     let event = Event::Dropped {
         from: RobotId(from),
         to: Some(RobotId(to)),
@@ -192,6 +192,10 @@ fn a_partition_between_others_or_at_another_time_excuses_no_robot() {
         (6125, (0, 2)),
     ] {
         let mut story = robot_2_hears_nothing();
+        // Robot 2 knows robot 0: it need not be heard to deliver more of its messages.
+        story.broadcasts(700, 0, 9);
+        story.delivers(750, 1, "broadcast", (0, 9));
+        story.delivers(750, 2, "broadcast", (0, 9));
         story.stays(0, 7000, 0, at(0.0, 0.0));
         story.fault(900, None, "partition");
         dropped(&mut story, millis, link, DropReason::Partition);

@@ -1,7 +1,9 @@
 //! A message to one robot reaches it within the bound, and once.
 
+use crate::broadcast_delivery::dropped;
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::RobotId;
+use starl_core::event::DropReason;
 use starl_properties::Excuse;
 
 /// Robot 0 sends its message of this number to a robot at 1 s; it has 5 s.
@@ -104,4 +106,23 @@ fn no_fault_excuses_an_acknowledged_message_that_did_not_arrive() {
     story.fault(1500, Some(2), "crash");
     acknowledged(&mut story);
     assert_none(&story.verdict(60_000));
+}
+
+/// A receiver has to hear from a sender that it does not know before it delivers, and a sender that it knows it need not.
+#[test]
+fn a_cut_of_the_way_back_excuses_only_robots_that_have_not_met() {
+    let mut story = sent(1, 2);
+    dropped(&mut story, 2000, (2, 0), DropReason::Partition);
+    assert_none(&story.verdict(60_000));
+    assert_eq!(
+        story.excused(60_000, "unicast.delivery"),
+        [(Excuse::Partition, 1)]
+    );
+    let mut met = Story::of_ground_robots(3);
+    met.setting.properties.unicast_bound = seconds(5);
+    sends(&mut met, 1, 2);
+    met.delivers(1100, 2, "unicast", (0, 1));
+    sends(&mut met, 2, 2);
+    dropped(&mut met, 2000, (2, 0), DropReason::Partition);
+    assert_only(&met.verdict(60_000), "unicast.delivery", 6000, &[0, 2]);
 }
