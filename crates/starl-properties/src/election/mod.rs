@@ -157,10 +157,10 @@ impl Checker for Election {
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
+            // Datagrams that were sent before the first election may arrive during a later partition.
+            Event::Sent { .. } => self.parts.observe(record),
             // Before the first election there is nothing to agree on.
-            Event::Sent { .. } | Event::Delivered { .. } if !self.instances.is_empty() => {
-                self.parts.observe(record);
-            }
+            Event::Delivered { .. } if !self.instances.is_empty() => self.parts.observe(record),
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record) {
                     self.pass(record.at, violations);

@@ -176,9 +176,9 @@ impl Checker for Mutex {
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
-            Event::Sent { .. } | Event::Delivered { .. } if !self.locks.is_empty() => {
-                self.parts.observe(record);
-            }
+            // Datagrams that were sent before a mutex was used may arrive during a later partition.
+            Event::Sent { .. } => self.parts.observe(record),
+            Event::Delivered { .. } if !self.locks.is_empty() => self.parts.observe(record),
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record) {
                     self.pass(record.at, violations);

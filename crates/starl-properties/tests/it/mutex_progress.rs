@@ -1,6 +1,8 @@
 //! A free resource is granted within the bound: to a request without overlap, and to one of those that overlap.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
+use starl_core::RobotId;
+use starl_core::event::Event;
 
 const NON_INTERFERENCE: &str = "mutex.non_interference";
 const PROGRESS: &str = "mutex.progress";
@@ -114,4 +116,28 @@ fn no_robot_is_overtaken_for_ever() {
             .locks(turn * 100 + 50, 1, "release", "a");
     }
     assert_only(&story.verdict(12_000), PROGRESS, 10_100, &[0, 1]);
+}
+
+/// The same datagrams, delivered twice: before a partition and, where `late`, during it.
+fn asks_in_a_partition(late: bool) -> Story {
+    let mut story = story();
+    story.sends(500, 1, 3, 0).sends(500, 2, 7, 0);
+    story.fault(1000, None, "partition");
+    story.locks(1200, 0, "acquire", "a");
+    if late {
+        for (from, sequence) in [(1, 3), (2, 7)] {
+            let from = RobotId(from);
+            story.record(1500, Some(0), Event::Delivered { from, sequence });
+        }
+    } else {
+        story.sends(1500, 1, 4, 0).sends(1500, 2, 8, 0);
+    }
+    story
+}
+
+#[test]
+fn a_late_copy_from_before_a_mutex_was_used_does_not_bridge_a_partition() {
+    assert_none(&asks_in_a_partition(true).verdict(20_000));
+    let bridged = asks_in_a_partition(false);
+    assert_only(&bridged.verdict(20_000), NON_INTERFERENCE, 6200, &[0]);
 }
