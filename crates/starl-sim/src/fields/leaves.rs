@@ -58,8 +58,7 @@ impl<'a> Section<'a> {
     fn plain<T: FieldValue>(&self, name: &str) -> Option<T> {
         let field = self.field(name);
         let preset = || matches!(field.default, Default::Value(_)).then(|| T::preset(field));
-        self.read(name, |node| T::parse(node, &field.kind))
-            .or_else(preset)
+        T::read(*self, name).or_else(preset)
     }
 
     /// `true` or `false`.

@@ -8,7 +8,7 @@ use super::written::{Table, flag, number, quantity, spatial, text, time};
 use starl_core::{Duration, Point};
 
 /// A table of a scenario. [`field_table`] implements it.
-pub(crate) trait FieldTable: Default + Clone {
+pub(crate) trait FieldTable: Default + Clone + PartialEq {
     /// Its fields.
     const FIELDS: &'static [Field];
 
@@ -43,7 +43,7 @@ pub(crate) trait FieldTable: Default + Clone {
 }
 
 /// The value of a field of plain data.
-pub(crate) trait FieldValue: Clone {
+pub(crate) trait FieldValue: Clone + PartialEq {
     /// The value that a word such as `never` stands for.
     fn absent() -> Option<Self> {
         None
@@ -62,7 +62,9 @@ pub(crate) trait FieldValue: Clone {
     fn show(&self, field: &Field) -> String;
 
     /// Whether it has to be written where `base` would be read otherwise.
-    fn differs(&self, base: &Self) -> bool;
+    fn differs(&self, base: &Self) -> bool {
+        self != base
+    }
 
     /// The value of a field that is left out, by the schema.
     fn preset(field: &Field) -> Self {
@@ -105,10 +107,6 @@ impl FieldValue for bool {
     fn show(&self, _: &Field) -> String {
         flag(*self)
     }
-
-    fn differs(&self, base: &bool) -> bool {
-        self != base
-    }
 }
 
 impl FieldValue for u32 {
@@ -122,10 +120,6 @@ impl FieldValue for u32 {
 
     fn show(&self, _: &Field) -> String {
         self.to_string()
-    }
-
-    fn differs(&self, base: &u32) -> bool {
-        self != base
     }
 }
 
@@ -145,10 +139,6 @@ impl FieldValue for f64 {
             _ => number(*self),
         }
     }
-
-    fn differs(&self, base: &f64) -> bool {
-        self != base
-    }
 }
 
 impl FieldValue for Option<f64> {
@@ -167,10 +157,6 @@ impl FieldValue for Option<f64> {
             (None, _) => unreachable!("a field that may have no value has a word for that"),
         }
     }
-
-    fn differs(&self, base: &Option<f64>) -> bool {
-        self != base
-    }
 }
 
 impl FieldValue for Duration {
@@ -185,10 +171,6 @@ impl FieldValue for Duration {
     fn show(&self, _: &Field) -> String {
         time(*self)
     }
-
-    fn differs(&self, base: &Duration) -> bool {
-        self != base
-    }
 }
 
 impl FieldValue for Point {
@@ -198,10 +180,6 @@ impl FieldValue for Point {
 
     fn show(&self, _: &Field) -> String {
         spatial(*self)
-    }
-
-    fn differs(&self, base: &Point) -> bool {
-        self != base
     }
 }
 

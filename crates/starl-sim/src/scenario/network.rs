@@ -79,10 +79,6 @@ impl FieldValue for DelayDistribution {
             DelayDistribution::Exponential => "exponential",
         })
     }
-
-    fn differs(&self, base: &DelayDistribution) -> bool {
-        self != base
-    }
 }
 
 /// A set of links that differ from the rest.
