@@ -5,8 +5,8 @@ use crate::compile::body::{Body, Slot};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::{Expression, Type};
-use crate::machine::Instruction;
 use crate::machine::operand::{Immediate, ObjectIn};
+use crate::machine::{Instruction, operand};
 
 impl<'p> Body<'_, 'p> {
     /// The value of a method.
@@ -206,17 +206,22 @@ impl<'p> Body<'_, 'p> {
             true => self.take(Size::SCALAR.plus(size))?,
             false => to,
         };
-        self.emit(Instruction::MapGet {
-            map,
-            scalars: key.block(),
-            objects: key.objects(),
-            to: optional.block(),
-            to_objects: optional.objects(),
-            kind,
-        });
+        self.look_up(map, key, optional, kind);
         if is_flat {
             self.move_value(to, optional.at(Size::SCALAR), size);
         }
         Ok(())
+    }
+
+    /// The value of a key as an optional: whether there is one, then the value, or zero.
+    pub fn look_up(&mut self, map: ObjectIn, key: Slot, to: Slot, kind: operand::Type) {
+        self.emit(Instruction::MapGet {
+            map,
+            scalars: key.block(),
+            objects: key.objects(),
+            to: to.block(),
+            to_objects: to.objects(),
+            kind,
+        });
     }
 }

@@ -184,14 +184,7 @@ impl<'p> Body<'_, 'p> {
         let mark = self.mark();
         let size = self.size(ty);
         let optional = self.take(Size::SCALAR.plus(size))?;
-        self.emit(Instruction::MapGet {
-            map,
-            scalars: key.block(),
-            objects: key.objects(),
-            to: optional.block(),
-            to_objects: optional.objects(),
-            kind,
-        });
+        self.look_up(map, key, optional, kind);
         self.move_value(to, optional.at(Size::SCALAR), size);
         self.release(mark);
         Ok(())
