@@ -41,18 +41,20 @@ timers! {
 }
 
 /// Drives the robot to targets, around unsafe sets.
+// In this order, since the first fields are read at each activation and the next at each estimate.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct ReachAvoid {
-    port: Port,
-    options: Options,
-    /// The command under way; none if inactive.
-    command: Option<Command>,
     /// The lane that the robot drives in; then the command is a part of it.
     lane: Option<Box<Lane>>,
     done: bool,
     failed: bool,
     /// Why the last command failed or was given up.
     reason: Option<Trouble>,
+    port: Port,
+    /// The command under way; none if inactive.
+    command: Option<Command>,
+    options: Options,
     /// The number of the last request to the planner.
     ticket: u32,
 }
