@@ -6,7 +6,7 @@ use starl_core::event::Hit;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Estimate;
 use starl_core::{Command, MotionRequest, Point, Pose, Random, RobotId, Time, random};
-use starl_motion::contact::{self, Contact, Grid, Motions};
+use starl_motion::contact::{Contact, Contacts, Grid, Motions};
 use starl_motion::proximity::{Rays, Scene};
 use starl_motion::{Disturbance, Neighbour, Pilot, State};
 use std::fmt;
@@ -67,7 +67,8 @@ pub struct Scratch {
     commands: Vec<Command>,
     predicted: Vec<State>,
     next: Vec<Point>,
-    contacts: Vec<Option<Contact>>,
+    found: Vec<(RobotId, Contact)>,
+    contacts: Contacts,
     nearby: Vec<Neighbour>,
 }
 
@@ -239,44 +240,40 @@ impl World {
         self.pilot(settings, work);
         work.predicted.clear();
         work.next.clear();
-        let mut reach: f64 = 0.0;
+        let mut is_moving = false;
         for ((model, state), command) in
             settings.models.iter().zip(&self.states).zip(&work.commands)
         {
             let calm = Disturbance::default();
             let predicted = model.predict(state, command, &calm, settings.physics_step);
             let next = predicted.pose.position;
-            reach = reach.max(state.pose.position.distance(next));
+            is_moving |= next != state.pose.position;
             work.predicted.push(predicted);
             work.next.push(next);
         }
-        work.contacts.clear();
-        work.contacts.resize(self.states.len(), None);
         if settings.collisions {
-            let motions = Motions {
+            let scene = Scene {
                 bodies: &self.bodies,
                 grid: &self.grid,
                 map: &self.map.index,
-                standing: &self.map.standing,
-                next: &work.next,
-                reach,
             };
-            for (robot, contact) in (0..).map(RobotId).zip(&mut work.contacts) {
-                *contact = motions.first_contact(robot, 0.0, |_| 1.0);
-            }
-            contact::settle(&motions, &mut work.contacts);
+            let motions = Motions::new(scene, &self.map.standing, &work.next);
+            motions.first_contacts(self.grid.entries(), &mut work.found);
+            work.contacts.settle(&motions, work.found.drain(..));
         }
         for (robot, state) in self.states.iter_mut().enumerate() {
-            let contact = work.contacts[robot];
-            let impact = contact.map(|contact| contact.impact);
-            settings.models[robot].update(state, &work.predicted[robot], impact);
+            let contact = work.contacts.of(RobotId(robot as u32));
+            *state = work.predicted[robot];
+            if let Some(Contact { impact, .. }) = contact {
+                settings.models[robot].stop_at(state, impact.place);
+            }
             self.bodies[robot].position = state.pose.position;
             self.bodies[robot].velocity = state.twist.linear;
             let touched = &mut self.touched[robot];
             *touched = touched.or(contact.map(|contact| contact.with));
         }
         self.now += settings.physics_step;
-        if reach > 0.0 {
+        if is_moving {
             self.grid.rebuild(&self.bodies, &[]);
         }
     }

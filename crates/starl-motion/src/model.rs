@@ -143,16 +143,10 @@ pub trait Model: Debug + Send + Sync {
         estimate.twist.linear.at_height(0.0) * self.limits().braking_time()
     }
 
-    /// Goes over to the predicted state; if an impact is given, the body stops at its place.
-    fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
-        match impact {
-            None => *state = *predicted,
-            Some(Impact { place, .. }) => {
-                *state = *predicted;
-                state.pose.position = place;
-                state.twist.linear = Point::ZERO;
-            }
-        }
+    /// Changes the predicted state of a body to that of one which a contact has stopped at this place.
+    fn stop_at(&self, predicted: &mut State, place: Point) {
+        predicted.pose.position = place;
+        predicted.twist.linear = Point::ZERO;
     }
 }
 

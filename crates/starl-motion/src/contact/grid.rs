@@ -28,6 +28,7 @@ impl Entry {
     }
 
     /// Squared planar distance.
+    #[inline]
     pub fn distance_squared(&self, p: Point) -> f64 {
         let (dx, dy) = (self.x - p.x, self.y - p.y);
         dx * dx + dy * dy
@@ -115,20 +116,29 @@ impl Grid {
         self.rows = (depth / side) as usize + 1;
     }
 
+    #[inline]
     fn column(&self, x: f64) -> usize {
         // A float-to-integer cast saturates.
         (((x - self.low.x) * self.per_cell) as usize).min(self.columns - 1)
     }
 
+    #[inline]
     fn row(&self, y: f64) -> usize {
         (((y - self.low.y) * self.per_cell) as usize).min(self.rows - 1)
     }
 
+    #[inline]
     fn cell(&self, p: Point) -> usize {
         self.row(p.y) * self.columns + self.column(p.x)
     }
 
+    /// The robots, those of a cell beside each other.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
     /// The radius of the largest body, metres.
+    #[inline]
     pub fn greatest_radius(&self) -> f64 {
         self.greatest_radius
     }
@@ -145,7 +155,9 @@ impl Grid {
             let cells = row * self.columns;
             let from = self.starts[cells + first] as usize;
             let to = self.starts[cells + last + 1] as usize;
-            self.entries[from..to].iter().for_each(&mut visit);
+            for entry in &self.entries[from..to] {
+                visit(entry);
+            }
         }
     }
 

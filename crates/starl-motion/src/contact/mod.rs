@@ -10,13 +10,15 @@ mod impact;
 
 pub use grid::{Entry, Grid};
 
-use crate::{Impact, Neighbour};
+use crate::Impact;
+use crate::proximity::Scene;
 use alloc::collections::BinaryHeap;
 use alloc::vec;
+use alloc::vec::Vec;
 use core::cmp::Reverse;
 use impact::Leg;
 use starl_core::event::Hit;
-use starl_core::geometry::{Bounds, ObstacleIndex};
+use starl_core::geometry::Bounds;
 use starl_core::{Point, RobotId};
 
 /// The contact that stops a body in the step.
@@ -31,30 +33,59 @@ pub struct Contact {
 }
 
 /// The motions of a step.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Motions<'a> {
-    /// The bodies at the start of the step.
-    pub bodies: &'a [Neighbour],
-    /// An index of these bodies.
-    pub grid: &'a Grid,
-    /// The obstacles.
-    pub map: &'a ObstacleIndex,
-    /// The numbers by which contacts name the obstacles of `map`, ascending.
-    pub standing: &'a [u32],
+    /// The bodies at the start of the step, and the obstacles.
+    scene: Scene<'a>,
+    /// The numbers by which contacts name the obstacles, ascending.
+    standing: &'a [u32],
     /// Where bodies would be at the end.
-    pub next: &'a [Point],
+    next: &'a [Point],
     /// No body moves farther, metres.
-    pub reach: f64,
+    reach: f64,
 }
 
-impl Motions<'_> {
+/// The contacts of a step by robot.
+#[derive(Clone, Debug, Default)]
+pub struct Contacts {
+    of_robots: Vec<Option<Contact>>,
+    /// The robots for which one was found, some more than once.
+    found: Vec<RobotId>,
+}
+
+impl<'a> Motions<'a> {
+    /// The motions of these bodies to their next positions.
+    pub fn new(scene: Scene<'a>, standing: &'a [u32], next: &'a [Point]) -> Motions<'a> {
+        let ways = scene.bodies.iter().zip(next);
+        let reach = ways
+            .map(|(body, next)| body.position.distance(*next))
+            .fold(0.0, f64::max);
+        Motions {
+            scene,
+            standing,
+            next,
+            reach,
+        }
+    }
+
+    /// Adds the first contact of each of these robots, if no other were stopped.
+    pub fn first_contacts(&self, robots: &[Entry], found: &mut Vec<(RobotId, Contact)>) {
+        let contacts = robots.iter().filter_map(|entry| {
+            let robot = entry.robot();
+            Some((robot, self.first_contact(robot, 0.0, |_| 1.0)?))
+        });
+        found.extend(contacts);
+    }
+
+    #[inline]
     fn leg(&self, robot: usize, until: f64) -> Leg {
-        Leg::new(&self.bodies[robot], self.next[robot], until)
+        Leg::new(&self.scene.bodies[robot], self.next[robot], until)
     }
 
     /// Visits the robots that may touch one in this step.
+    #[inline]
     fn for_each_near(&self, robot: usize, mut visit: impl FnMut(usize)) {
-        let Motions { bodies, grid, .. } = self;
+        let Scene { bodies, grid, .. } = self.scene;
         let body = &bodies[robot];
         let reach = body.radius + grid.greatest_radius() + 2.0 * self.reach;
         grid.for_each_within(body.position, reach, |entry| {
@@ -66,13 +97,13 @@ impl Motions<'_> {
 
     /// A robot's first contact, not before `since`, if each robot moves `until` this fraction of the step.
     #[inline]
-    pub fn first_contact(
+    fn first_contact(
         &self,
         robot: RobotId,
         since: f64,
         until: impl Fn(usize) -> f64,
     ) -> Option<Contact> {
-        let Motions { map, standing, .. } = self;
+        let (map, standing) = (self.scene.map, self.standing);
         let leg = self.leg(robot.index(), 1.0);
         let mut first = f64::INFINITY;
         let mut with = None;
@@ -128,45 +159,73 @@ impl Contact {
     }
 }
 
-/// The contacts of a step, by robot; at first each robot's first contact if no other were stopped.
-pub fn settle(motions: &Motions<'_>, contacts: &mut [Option<Contact>]) {
-    // Fractions are not negative, so that their bits are in the order of their values.
-    let key = |robot: usize, contact: &Contact| Reverse((contact.after.to_bits(), robot));
-    let mut due: BinaryHeap<_> = (0..)
-        .zip(contacts.iter())
-        .filter_map(|(robot, contact)| Some(key(robot, contact.as_ref()?)))
-        .collect();
-    if due.is_empty() {
-        return;
+impl Contacts {
+    /// The contact that stops a robot.
+    pub fn of(&self, robot: RobotId) -> Option<&Contact> {
+        self.of_robots.get(robot.index())?.as_ref()
     }
-    let mut until = vec![1.0; contacts.len()];
-    let mut is_settled = vec![false; contacts.len()];
-    while let Some(Reverse((after, robot))) = due.pop() {
-        let now = f64::from_bits(after);
-        if is_settled[robot] || contacts[robot].is_none_or(|contact| contact.after != now) {
-            continue;
+
+    /// Forgets all contacts, and makes room for those of this number of robots.
+    fn clear(&mut self, robots: usize) {
+        for robot in self.found.drain(..) {
+            self.of_robots[robot.index()] = None;
         }
-        (is_settled[robot], until[robot]) = (true, now);
-        motions.for_each_near(robot, |other| {
-            if is_settled[other] {
-                return;
-            }
-            let before = &mut contacts[other];
-            let with = Hit::Robot(RobotId(robot as u32));
-            let fresh = match before {
-                // It is not where the other would have met it.
-                Some(contact) if contact.with == with && contact.after > now => {
-                    *before = None;
-                    motions.first_contact(RobotId(other as u32), now, |other| until[other])
-                }
-                _ => motions.meeting(other, robot, now),
-            };
-            if let Some(fresh) = fresh
-                && before.is_none_or(|before| fresh.after < before.after)
+        self.of_robots.resize(robots, None);
+    }
+
+    fn insert(&mut self, robot: usize, contact: Contact) {
+        self.of_robots[robot] = Some(contact);
+        self.found.push(RobotId(robot as u32));
+    }
+
+    /// Settles the contacts of a step, given each robot's first contact if no other were stopped.
+    pub fn settle(
+        &mut self,
+        motions: &Motions<'_>,
+        first: impl IntoIterator<Item = (RobotId, Contact)>,
+    ) {
+        let robots = motions.next.len();
+        self.clear(robots);
+        // Fractions are not negative, so that their bits are in the order of their values.
+        let key = |robot: usize, contact: &Contact| Reverse((contact.after.to_bits(), robot));
+        let mut due = BinaryHeap::new();
+        for (robot, contact) in first {
+            due.push(key(robot.index(), &contact));
+            self.insert(robot.index(), contact);
+        }
+        if due.is_empty() {
+            return;
+        }
+        let mut until = vec![1.0; robots];
+        let mut is_settled = vec![false; robots];
+        while let Some(Reverse((after, robot))) = due.pop() {
+            let now = f64::from_bits(after);
+            if is_settled[robot] || self.of_robots[robot].is_none_or(|contact| contact.after != now)
             {
-                due.push(key(other, &fresh));
-                *before = Some(fresh);
+                continue;
             }
-        });
+            (is_settled[robot], until[robot]) = (true, now);
+            motions.for_each_near(robot, |other| {
+                if is_settled[other] {
+                    return;
+                }
+                let before = &mut self.of_robots[other];
+                let with = Hit::Robot(RobotId(robot as u32));
+                let fresh = match before {
+                    // It is not where the other would have met it.
+                    Some(contact) if contact.with == with && contact.after > now => {
+                        *before = None;
+                        motions.first_contact(RobotId(other as u32), now, |other| until[other])
+                    }
+                    _ => motions.meeting(other, robot, now),
+                };
+                if let Some(fresh) = fresh
+                    && before.is_none_or(|before| fresh.after < before.after)
+                {
+                    due.push(key(other, &fresh));
+                    self.insert(other, fresh);
+                }
+            });
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::conformance::{CALM, any_command, command_for, every_model, place};
 use starl_core::{Command, Duration, Point, Pose, Random};
-use starl_motion::{Disturbance, Impact, Model, State};
+use starl_motion::{Disturbance, Model, State};
 
 const STEP: Duration = Duration::from_millis(50);
 
@@ -199,17 +199,10 @@ fn an_obstacle_stops_the_body_at_the_contact() {
             let command = command_for(&*model, &mut random);
             let predicted = model.predict(&before, &command, &CALM, STEP);
             let place = before.pose.position.lerp(predicted.pose.position, 0.5);
-            let impact = Impact {
-                place,
-                direction: Point::polar(1.0, random.between(-3.0, 3.0)),
-            };
-            let mut state = before;
-            model.update(&mut state, &predicted, Some(impact));
+            let mut state = predicted;
+            model.stop_at(&mut state, place);
             assert_eq!(state.pose.position, place, "{}", model.name());
             assert_eq!(state.twist.linear, Point::ZERO, "{}", model.name());
-            let mut free = before;
-            model.update(&mut free, &predicted, None);
-            assert_eq!(free, predicted, "{}", model.name());
         }
     }
 }

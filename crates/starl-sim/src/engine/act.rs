@@ -3,7 +3,7 @@
 use super::inbox::{Delivery, Transmission};
 use super::outlet::SimulatorOutlet;
 use super::shared::{Kind, Shared, Window};
-use super::simulated_robot::{Account, Frozen, Senses};
+use super::simulated_robot::{Account, Frozen, Senses, SimulatedRobot};
 use super::{discover, position};
 use starl_core::{Event, Input, Message, Payload, Sensors, Time};
 use starl_host::{Node, NodeInput, Outlet, Snapshot};
@@ -25,9 +25,8 @@ pub struct Turn<'a> {
 }
 
 impl Turn<'_> {
-    /// Handles all inputs of this slot, and returns the time of the next one, without arrivals. `arrivals` is scratch
-    /// memory.
-    pub fn run(&mut self, arrivals: &mut Vec<Delivery>) -> Time {
+    /// Handles all inputs of this slot. `arrivals` is scratch memory.
+    pub fn run(&mut self, arrivals: &mut Vec<Delivery>) {
         if self.window.from == Time::ZERO {
             let pose = self.outlet.state.pose;
             self.outlet.record(Time::ZERO, Event::Moved(pose));
@@ -37,7 +36,6 @@ impl Turn<'_> {
             self.begin();
         }
         self.take_in_order(arrivals);
-        next_due(self.node, self.outlet.account, *self.next_estimate)
     }
 
     /// The first inputs: the start, paths that planners have found, and readings.
@@ -181,13 +179,25 @@ impl Due {
     }
 }
 
-/// The time of a robot's next input, without arrivals of datagrams.
-#[inline]
-pub fn next_due(node: &Node, account: &Account, next_estimate: Time) -> Time {
-    let next = due(node, account, &[]).min();
-    match node.condition().down {
-        true => next,
-        false => next.min(next_estimate),
+impl SimulatedRobot {
+    /// The time of its next input, without arrivals of datagrams. Finished plans reach it at `plans`.
+    #[inline]
+    pub fn next_due(&self, plans: Time) -> Time {
+        if self.is_gone {
+            return Time::NEVER;
+        }
+        let account = &self.account;
+        let next = due(&self.node, account, &[]).min();
+        let plans = if account.plans.is_empty() {
+            Time::NEVER
+        } else {
+            plans
+        };
+        let estimate = match self.node.condition().down {
+            true => Time::NEVER,
+            false => self.next_estimate,
+        };
+        next.min(plans).min(estimate)
     }
 }
 

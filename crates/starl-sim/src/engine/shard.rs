@@ -2,7 +2,7 @@
 //!
 //! Invariant: which robots share a shard depends on the fleet alone, never on the number of threads.
 
-use super::act::{Turn, next_due};
+use super::act::Turn;
 use super::inbox::Delivery;
 use super::outlet::SimulatorOutlet;
 use super::radio::{self, Posted};
@@ -14,7 +14,7 @@ use starl_core::event::Hit;
 use starl_core::{Command, Event, Point, Random, RobotId, Time, math, sensor};
 use starl_host::Workspace;
 use starl_host::journal::Journal;
-use starl_motion::contact::{Contact, Motions};
+use starl_motion::contact::Contacts;
 use starl_motion::sensing::Readings;
 use starl_motion::{Neighbour, State};
 
@@ -62,19 +62,20 @@ impl Shard {
     }
 
     /// Clears the messages sent in the previous step.
-    pub fn begin_step(&mut self, step: Time) {
+    pub fn begin_step(&mut self, step: Window) {
         self.outbox.clear();
         self.routed = 0;
-        self.schedule(step, step);
+        if step.from == Time::ZERO {
+            self.schedule(step, step.from);
+        }
     }
 
-    /// Finds out when something happens to each robot from `now` on in the step that began at `step`.
-    pub fn schedule(&mut self, step: Time, now: Time) {
-        let is_begun = now > step;
-        let due = |member: &SimulatedRobot| match member {
-            member if member.is_gone => Time::NEVER,
-            member if !is_begun && (step == Time::ZERO || !member.account.plans.is_empty()) => step,
-            member => next_due(&member.node, &member.account, member.next_estimate),
+    /// Finds out when something happens to each robot from `now` on, after a change from outside in this step.
+    pub fn schedule(&mut self, step: Window, now: Time) {
+        let plans = if now > step.from { step.to } else { step.from };
+        let due = |member: &SimulatedRobot| match now {
+            Time::ZERO => Time::ZERO,
+            _ => member.next_due(plans),
         };
         self.due.clear();
         self.due.extend(self.members.iter().map(due));
@@ -97,13 +98,14 @@ impl Shard {
         self.earliest = at.min(self.earliest);
     }
 
-    /// Lets each robot take its inputs of this slot of the step that began at `step`.
-    pub fn act(&mut self, shared: &Shared, step: Time, slot: Window) {
-        for (index, member) in self.members.iter_mut().enumerate() {
-            if member.is_gone {
-                self.due[index] = Time::NEVER;
+    /// Lets each robot take its inputs of this slot of a step.
+    pub fn act(&mut self, shared: &Shared, step: Window, slot: Window) {
+        for (due, (index, member)) in self.due.iter_mut().zip(self.members.iter_mut().enumerate()) {
+            if *due >= slot.to {
+                continue;
             }
-            if self.due[index] >= slot.to {
+            if member.is_gone {
+                *due = Time::NEVER;
                 continue;
             }
             let scratch = &mut self.scratch;
@@ -121,7 +123,7 @@ impl Shard {
             };
             let mut turn = Turn {
                 window: slot,
-                step,
+                step: step.from,
                 node: &mut member.node,
                 next_estimate: &mut member.next_estimate,
                 senses: &mut member.senses,
@@ -129,7 +131,8 @@ impl Shard {
                 sensed: false,
                 outlet,
             };
-            self.due[index] = turn.run(&mut scratch.arrivals);
+            turn.run(&mut scratch.arrivals);
+            *due = member.next_due(step.to);
         }
         self.find_earliest();
     }
@@ -176,32 +179,25 @@ impl Shard {
         member.node.corrupt(at, random, &mut outlet);
     }
 
-    /// Finds what each robot's predicted motion meets first.
-    pub fn look_ahead(&self, motions: &Motions<'_>, contacts: &mut [Option<Contact>]) {
-        for (member, contact) in self.members.iter().zip(contacts) {
-            *contact = match member.is_gone {
-                true => None,
-                false => motions.first_contact(member.id(), 0.0, |_| 1.0),
-            };
-        }
-    }
-
     /// Moves each robot to where it was predicted, or lets it be stopped, and shows where it is.
     pub fn settle(
         &mut self,
         shared: &Shared,
         window: Window,
-        contacts: &[Option<Contact>],
+        contacts: &Contacts,
         bodies: &mut [Neighbour],
         perceived: &mut [Neighbour],
     ) {
+        std::mem::swap(&mut self.states, &mut self.predicted);
         for (index, member) in self.members.iter_mut().enumerate() {
             let (state, body) = (&mut self.states[index], &mut bodies[index]);
             let kind = &shared.kinds[member.group as usize];
-            let contact = contacts.get(member.id().index()).copied().flatten();
+            let contact = contacts.of(member.id());
             let hit = contact.map(|contact| contact.with);
             let impact = contact.map(|contact| contact.impact);
-            kind.model.update(state, &self.predicted[index], impact);
+            if let Some(impact) = impact {
+                kind.model.stop_at(state, impact.place);
+            }
             let before = shared.bodies[member.id().index()].position;
             member.distance += state.pose.position.distance(before);
             body.position = state.pose.position;
@@ -220,7 +216,7 @@ impl Shard {
                     self.log.record(digest, member.node.id(), window.to, event);
                     // Two robots that meet are one collision, not two.
                     let counted_there = matches!(with, Hit::Robot(other)
-                        if other < member.id() && contacts[other.index()]
+                        if other < member.id() && contacts.of(other)
                             .is_some_and(|contact| contact.with == Hit::Robot(member.id())));
                     self.log.tally.collisions += u64::from(!counted_there);
                 }

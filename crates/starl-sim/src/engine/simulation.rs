@@ -18,7 +18,7 @@ use starl_core::{
 };
 use starl_host::Node;
 use starl_host::journal::{Batch, Journal};
-use starl_motion::contact::{self, Contact, Motions};
+use starl_motion::contact::{Contact, Contacts, Motions};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
 
@@ -35,7 +35,9 @@ pub struct Simulation {
     pub(super) next: Vec<Point>,
     /// Where bodies are after the step; changes places with the shared ones at its end.
     pub(super) bodies: Vec<Neighbour>,
-    contacts: Vec<Option<Contact>>,
+    /// The first contacts of robots in the step, for their settlement.
+    found: Vec<Vec<(RobotId, Contact)>>,
+    contacts: Contacts,
     pub(super) agenda: Agenda,
     /// Whether robots have joined or left since the spatial index was built.
     pub(super) have_changed: bool,
@@ -111,7 +113,8 @@ impl Simulation {
             now: Time::ZERO,
             next: vec![Point::ZERO; shared.bodies.len()],
             bodies: shared.bodies.clone(),
-            contacts: Vec::new(),
+            found: Vec::new(),
+            contacts: Contacts::default(),
             agenda: Agenda::new(&origin),
             have_changed: false,
             origin,
@@ -226,7 +229,7 @@ impl Simulation {
         let Scenario { physics, .. } = &*self.shared.scenario;
         let slots = Slots::new(physics.step, self.shared.network.resolution);
         run(self.parallel, self.shards.iter_mut(), |shard| {
-            shard.begin_step(window.from);
+            shard.begin_step(window);
         });
         let mut now = window.from;
         loop {
@@ -239,12 +242,13 @@ impl Simulation {
                 break;
             }
             if intervention <= next {
-                self.intervene(intervention.max(now));
+                let at = intervention.max(now);
+                self.intervene(at);
                 if self.have_changed {
                     self.index_robots();
                 }
                 let shards = self.shards.iter_mut();
-                shards.for_each(|shard| shard.schedule(window.from, intervention));
+                shards.for_each(|shard| shard.schedule(window, at));
                 continue;
             }
             let (mut slot, end) = slots.around(next, window, &self.shared.network);
@@ -257,7 +261,7 @@ impl Simulation {
             let robots = self.shared.bodies.len();
             let inboxes = &mut self.shared.inboxes;
             self.calendar.turn(robots, (end, slot.to), inboxes);
-            self.act_in_slot(window.from, slot);
+            self.act_in_slot(window, slot);
             for shard in &mut self.shards {
                 let Shard { outbox, posted, .. } = shard;
                 radio::post(&mut self.calendar, outbox, posted, sent_arrives, slots);
@@ -272,7 +276,7 @@ impl Simulation {
     }
 
     /// Lets the robots to which something happens in a slot take their inputs, and routes what they send.
-    fn act_in_slot(&mut self, step: Time, slot: Window) {
+    fn act_in_slot(&mut self, step: Window, slot: Window) {
         for delivery in self.shared.inboxes.arrivals() {
             let to = RobotId(delivery.to);
             self.shards[to.index() / SIZE].arrives(to, delivery.at);
@@ -291,26 +295,19 @@ impl Simulation {
         if !shared.scenario.physics.collisions {
             return;
         }
-        let reach = shared
-            .bodies
-            .iter()
-            .zip(&self.next)
-            .map(|(body, next)| body.position.distance(*next))
-            .fold(0.0, f64::max);
-        self.contacts.resize(self.next.len(), None);
-        let motions = Motions {
-            bodies: &shared.bodies,
-            grid: &shared.grid,
-            map: &shared.map,
-            standing: &shared.standing,
-            next: &self.next,
-            reach,
-        };
-        let work = self.shards.iter().zip(self.contacts.chunks_mut(SIZE));
-        run(self.parallel, work, |(shard, contacts)| {
-            shard.look_ahead(&motions, contacts);
-        });
-        contact::settle(&motions, &mut self.contacts);
+        let motions = Motions::new(shared.scene(), &shared.standing, &self.next);
+        // Cell by cell, since robots with neighbouring numbers may be far apart.
+        let cells = shared.grid.entries().chunks(SIZE);
+        self.found.resize_with(cells.len(), Vec::new);
+        run(
+            self.parallel,
+            cells.zip(&mut self.found),
+            |(robots, found)| {
+                motions.first_contacts(robots, found);
+            },
+        );
+        let found = self.found.iter_mut().flat_map(|found| found.drain(..));
+        self.contacts.settle(&motions, found);
     }
 
     fn settle(&mut self, window: Window) {

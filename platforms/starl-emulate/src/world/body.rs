@@ -64,9 +64,10 @@ impl Body {
         self.odometer.turn += wheels.twist.yaw * STEP.seconds();
 
         let before = self.state.pose.position;
-        self.model.update(&mut self.state, predicted, impact);
+        self.state = *predicted;
         // A pressed bumper stays pressed until the body moves away.
         if let Some(impact) = impact {
+            self.model.stop_at(&mut self.state, impact.place);
             self.touched = Some(impact.direction);
         } else if self.state.pose.position != before {
             self.touched = None;

@@ -10,7 +10,7 @@ pub use body::{BodyHandle, Odometer};
 use body::Body;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::{Duration, Obstacle, Pose, Random, RobotId};
-use starl_motion::contact::{self, Grid, Motions};
+use starl_motion::contact::{Contacts, Grid, Motions};
 use starl_motion::proximity::{Rays, Scene};
 use starl_motion::{Disturbance, Impact, Model, Neighbour, State};
 use std::fmt;
@@ -194,24 +194,20 @@ impl Floor {
     fn impacts(&self, predicted: &[State]) -> Vec<Option<Impact>> {
         let (bodies, grid) = self.indexed();
         let next: Vec<_> = predicted.iter().map(|state| state.pose.position).collect();
-        let ways = bodies.iter().zip(&next);
         let standing: Vec<u32> = (0..).take(self.map.obstacles().len()).collect();
-        let motions = Motions {
+        let scene = Scene {
             bodies: &bodies,
             grid: &grid,
             map: &self.map,
-            standing: &standing,
-            next: &next,
-            reach: ways
-                .map(|(body, next)| body.position.distance(*next))
-                .fold(0.0, f64::max),
         };
-        let mut contacts: Vec<_> = (0..bodies.len() as u32)
-            .map(|body| motions.first_contact(RobotId(body), 0.0, |_| 1.0))
-            .collect();
-        contact::settle(&motions, &mut contacts);
-        let impacts = contacts.into_iter();
-        impacts.map(|contact| Some(contact?.impact)).collect()
+        let motions = Motions::new(scene, &standing, &next);
+        let mut found = Vec::new();
+        motions.first_contacts(grid.entries(), &mut found);
+        let mut contacts = Contacts::default();
+        contacts.settle(&motions, found);
+        let contact = |body| contacts.of(RobotId(body));
+        let bodies = 0..bodies.len() as u32;
+        bodies.map(|body| Some(contact(body)?.impact)).collect()
     }
 
     fn disturbance(&self, index: u64) -> Disturbance {

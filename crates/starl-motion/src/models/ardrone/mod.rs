@@ -20,11 +20,11 @@ use crate::model::control;
 use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::drone::Gains;
 use crate::tracking::{Goal, Tracking};
-use crate::{Disturbance, Impact, Limits, Model, State};
+use crate::{Disturbance, Limits, Model, State};
 use alloc::vec::Vec;
 use starl_core::math::{radians, tan};
 use starl_core::motion::{Body, Estimate, Workspace};
-use starl_core::{Command, Duration, Point, Pose, Twist};
+use starl_core::{Command, Duration, Point, Pose};
 
 /// The model's name.
 pub(super) const NAME: &str = "drone";
@@ -258,15 +258,9 @@ impl Model for Ardrone {
     }
 
     /// A drone that hits something holds that place rather than push.
-    fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
-        *state = *predicted;
-        if let Some(Impact { place, .. }) = impact {
-            state.pose.position = place;
-            state.twist = Twist {
-                linear: Point::ZERO,
-                ..state.twist
-            };
-            state.memory = [place.x, place.y];
-        }
+    fn stop_at(&self, predicted: &mut State, place: Point) {
+        predicted.pose.position = place;
+        predicted.twist.linear = Point::ZERO;
+        predicted.memory = [place.x, place.y];
     }
 }

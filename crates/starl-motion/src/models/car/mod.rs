@@ -21,7 +21,7 @@ use crate::model::control;
 use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::car::Gains;
 use crate::tracking::{Goal, Tracking};
-use crate::{Disturbance, Impact, Limits, Model, State};
+use crate::{Disturbance, Limits, Model, State};
 use alloc::vec::Vec;
 use bicycle::{Course, Ramp, course};
 use starl_core::math::{cos, fabs, radians, sin, sqrt};
@@ -266,12 +266,9 @@ impl Model for Car {
     }
 
     /// A car that hits something stands, its wheels as they are.
-    fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
-        *state = *predicted;
-        if let Some(Impact { place, .. }) = impact {
-            state.pose.position = place;
-            state.twist = Twist::default();
-            state.memory[0] = 0.0;
-        }
+    fn stop_at(&self, predicted: &mut State, place: Point) {
+        predicted.pose.position = place;
+        predicted.twist = Twist::default();
+        predicted.memory[0] = 0.0;
     }
 }

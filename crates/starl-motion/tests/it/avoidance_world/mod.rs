@@ -13,7 +13,7 @@ pub use robot::Robot;
 use starl_core::motion::Estimate;
 use starl_core::{Duration, Obstacle, Point, Random, Time, math};
 use starl_motion::avoidance::Options;
-use starl_motion::{Disturbance, Impact, Neighbour};
+use starl_motion::{Disturbance, Neighbour};
 
 const STEP: Duration = Duration::from_millis(10);
 /// A robot this near to its goal has arrived, metres; that of Race.
@@ -226,20 +226,16 @@ impl World {
             .model
             .predict(&robot.state, &robot.command, &Disturbance::default(), STEP);
         let place = next.pose.position;
-        let mut impact = None;
+        let mut is_blocked = false;
         for obstacle in &self.obstacles {
             let gap = obstacle.body_gap(place, body.radius, body.height);
             self.least_obstacle_gap = self.least_obstacle_gap.min(gap);
-            if gap < 0.0 {
-                let towards = (obstacle.nearest_point(place) - place).at_height(0.0);
-                let direction = towards.normalized().unwrap_or(Point::planar(1.0, 0.0));
-                impact = Some(Impact {
-                    place: robot.state.pose.position,
-                    direction,
-                });
-            }
+            is_blocked |= gap < 0.0;
         }
-        robot.model.update(&mut robot.state, &next, impact);
+        let before = std::mem::replace(&mut robot.state, next);
+        if is_blocked {
+            robot.model.stop_at(&mut robot.state, before.pose.position);
+        }
     }
 
     fn measure(&mut self) {
