@@ -61,7 +61,7 @@ struct Unread {
 pub(super) struct Body {
     pub place: Where,
     pub locals: Vec<Local>,
-    /// For each local what it measures, if that is known.
+    /// For each local its dimension, if that is known.
     pub dimensions: Vec<Option<Dimension>>,
     /// For each local whether it is read.
     unread: Vec<Unread>,

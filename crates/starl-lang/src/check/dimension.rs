@@ -1,7 +1,7 @@
 //! Lengths and angles are not added to each other, nor compared.
 //!
 //! A Float does not tell what it measures. A literal with a unit does, and so do `heading`, `distance` and the like, and
-//! names that are declared with such a value. What is multiplied or divided may measure anything.
+//! names that are declared with such a value. A product or a quotient may measure anything.
 
 use alloc::format;
 
@@ -12,7 +12,7 @@ use super::tables::Builtin;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Place, RobotMember, Root, Type};
 
-/// What a number measures.
+/// A dimension of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dimension {
     /// Metres.
@@ -21,10 +21,10 @@ pub(super) enum Dimension {
     Angle,
 }
 
-/// What is known of a number.
+/// The known facts of a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Measure {
-    /// What it measures, if that is known.
+    /// Its dimension, if that is known.
     dimension: Option<Dimension>,
     /// Whether it consists of literals, so that one without a unit has none on purpose.
     is_written: bool,
@@ -54,7 +54,7 @@ impl Measure {
         }
     }
 
-    /// What a value measures that may be either; none if no value can.
+    /// The facts of a value that may be either; none if they contradict each other.
     fn joined(self, other: Self) -> Option<Self> {
         let is_written = self.is_written && other.is_written;
         match (self.dimension, other.dimension) {
@@ -67,7 +67,7 @@ impl Measure {
         }
     }
 
-    /// What the value measures when it is multiplied with another.
+    /// The facts of the value multiplied with another.
     fn scaled(self, by: Self) -> Self {
         match by.dimension.is_none() && by.is_written {
             true => self,
@@ -122,7 +122,7 @@ impl Checker {
         self.report(Diagnostic::new(Code::MixedDimensions, value.span, message));
     }
 
-    /// Notes what a name measures that is declared with these values.
+    /// Notes the dimension of a name that is declared with these values.
     pub fn note_dimension<'a>(
         &mut self,
         entity: Entity,
@@ -136,7 +136,7 @@ impl Checker {
         }
     }
 
-    /// What a local measures that begins with this value.
+    /// The dimension of a value, if that is known.
     pub fn dimension(&self, value: &Expression) -> Option<Dimension> {
         self.measure(value).dimension
     }
@@ -240,7 +240,7 @@ impl Checker {
     }
 }
 
-/// What a literal with this text measures, by its unit.
+/// The dimension of a literal with this text, by its unit.
 fn unit_of(text: &str) -> Option<Dimension> {
     let text = text.trim_start_matches(['-', ' ']);
     let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.' || c == '_');

@@ -105,7 +105,7 @@ pub(super) struct Checker {
     pub user: Option<Needed>,
     /// Types whose keys must be checked when all types are known, with their positions.
     pub keys: Vec<(Site, Type)>,
-    /// What declared names measure, where their values tell.
+    /// The dimensions of declared names, where their values have one.
     pub dimensions: BTreeMap<Entity, Dimension>,
     /// Which enums have a variant with this name.
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
