@@ -32,6 +32,9 @@ impl Checker {
             self.report_operator(operator, &left, &right, span);
             return broken(span);
         };
+        if ty == Type::Float && matches!(resolved, Operator::Add | Operator::Subtract) {
+            self.check_dimensions(operator.text(), &left, &right, span);
+        }
         joined(resolved, left, right, ty, span)
     }
 

@@ -4,6 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::Purity;
+use super::dimension::Dimension;
 use crate::diagnostic::{Code, Span};
 use crate::ir::{Local, LocalId, SharedId, Type, VariableId};
 
@@ -60,6 +61,8 @@ struct Unread {
 pub(super) struct Body {
     pub place: Where,
     pub locals: Vec<Local>,
+    /// For each local its dimension, if that is known.
+    pub dimensions: Vec<Option<Dimension>>,
     /// For each local whether it is read.
     unread: Vec<Unread>,
     /// The locals that cannot be assigned to, with the phrase for messages.
@@ -102,6 +105,7 @@ impl Body {
             is_read: false,
         });
         self.fixed.push(None);
+        self.dimensions.push(None);
         id
     }
 

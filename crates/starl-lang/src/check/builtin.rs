@@ -42,6 +42,13 @@ impl Checker {
         let rest: Vec<_> = (arranged.rest.into_iter())
             .map(|(name, value)| (name, self.value(Some(value), None, "this")))
             .collect();
+        if let Builtin::Min | Builtin::Max | Builtin::Clamp | Builtin::Random = builtin
+            && let [Some(first), others @ ..] = &values[..]
+        {
+            for other in others.iter().flatten() {
+                self.check_dimensions(signature.name, first, other, span);
+            }
+        }
         if builtin == Builtin::Log {
             self.check_format(&values, rest.len());
         }

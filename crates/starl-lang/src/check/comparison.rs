@@ -56,6 +56,7 @@ impl Checker {
             self.report_operator(operator, &left, &right, span);
             return broken_bool(span);
         }
+        self.check_dimensions(operator.text(), &left, &right, span);
         let operator = if operator == BinaryOperator::Equal {
             Operator::Equal
         } else {
@@ -104,6 +105,7 @@ impl Checker {
             self.report_operator(operator, &left, &right, span);
             return broken_bool(span);
         }
+        self.check_dimensions(operator.text(), &left, &right, span);
         let operator = match operator {
             BinaryOperator::Less => Operator::Less,
             BinaryOperator::LessEqual => Operator::LessEqual,

@@ -86,12 +86,16 @@ impl Checker {
         let (file, node) = self.nodes.constants[id.index()].clone();
         let outer_file = core::mem::replace(&mut self.file, file);
         let outer_user = self.user.replace(Needed::Constant(id));
-        let (value, locals) = self.in_body(Where::Constant, |checker| match node.ty() {
-            Some(ty) => {
-                let ty = checker.written(&ty);
-                checker.expect(node.value(), &ty, "the value")
-            }
-            None => checker.value(node.value(), None, "the value"),
+        let (value, locals) = self.in_body(Where::Constant, |checker| {
+            let value = match node.ty() {
+                Some(ty) => {
+                    let ty = checker.written(&ty);
+                    checker.expect(node.value(), &ty, "the value")
+                }
+                None => checker.value(node.value(), None, "the value"),
+            };
+            checker.note_dimension(Entity::Constant(id), [&value]);
+            value
         });
         let constant = &mut self.program[id];
         constant.ty = value.ty.clone();
@@ -162,6 +166,8 @@ impl Checker {
                     .and_then(|range| checker.check_range(&range, &ty));
                 let value = node.value();
                 let default = value.map(|value| checker.expect(Some(value), &ty, "the default"));
+                let values = range.iter().flatten().chain(&default);
+                checker.note_dimension(Entity::Parameter(ParameterId(number as u32)), values);
                 (default, range)
             });
             let parameter = &mut self.program.parameters[number];
@@ -204,8 +210,9 @@ impl Checker {
             let id = VariableId(number as u32);
             let ty = self.program[id].ty.clone();
             let (initial, locals) = self.in_body(Where::Initial(id), |checker| {
-                let value = node.value()?;
-                Some(checker.expect(Some(value), &ty, "the first value"))
+                let value = checker.expect(Some(node.value()?), &ty, "the first value");
+                checker.note_dimension(Entity::Variable(id), [&value]);
+                Some(value)
             });
             if initial.is_none() && !self.program.has_default(&ty) && ty != Type::Error {
                 let name = self.program[id].name.clone();
@@ -271,8 +278,9 @@ impl Checker {
             let node = self.nodes.shared[number].clone();
             let ty = self.program.shared[number].ty.clone();
             let (initial, locals) = self.in_body(Where::Constant, |checker| {
-                let value = node.value()?;
-                Some(checker.expect(Some(value), &ty, "the first value"))
+                let value = checker.expect(Some(node.value()?), &ty, "the first value");
+                checker.note_dimension(Entity::Shared(SharedId(number as u32)), [&value]);
+                Some(value)
             });
             if let Some(value) = initial.as_ref().filter(|_| node.is_single_writer()) {
                 let message = "a single-writer variable has no initial value";

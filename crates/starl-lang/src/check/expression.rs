@@ -256,6 +256,7 @@ impl Checker {
         };
         let then = self.fit(then, &ty, "the value after `then`");
         let otherwise = self.fit(otherwise, &ty, "the value after `else`");
+        self.check_dimensions("else", &then, &otherwise, span);
         let kind = ExpressionKind::Conditional {
             condition: Box::new(condition),
             then: Box::new(then),

@@ -23,6 +23,7 @@ mod condition;
 mod constants;
 mod control;
 mod declaration;
+mod dimension;
 mod event;
 mod expression;
 pub(crate) mod feasible;

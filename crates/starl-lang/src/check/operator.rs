@@ -93,6 +93,7 @@ impl Checker {
             inner
         };
         let default = self.fit(default, &ty, "the default");
+        self.check_dimensions("??", &optional, &default, span);
         let kind = ExpressionKind::Default {
             optional: Box::new(optional),
             default: Box::new(default),

@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Body;
+use super::dimension::Dimension;
 use super::model::Evaluation;
 use super::report::forget_consequences;
 use super::resolution::Resolutions;
@@ -104,6 +105,8 @@ pub(super) struct Checker {
     pub user: Option<Needed>,
     /// Types whose keys must be checked when all types are known, with their positions.
     pub keys: Vec<(Site, Type)>,
+    /// The dimensions of declared names, where their values have one.
+    pub dimensions: BTreeMap<Entity, Dimension>,
     /// Which enums have a variant with this name.
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
     /// Of how many parts the records are made.
@@ -143,6 +146,7 @@ impl Checker {
             needs: BTreeSet::new(),
             user: None,
             keys: Vec::new(),
+            dimensions: BTreeMap::new(),
             variants: BTreeMap::new(),
             sizes: BTreeMap::new(),
             evaluations: Vec::new(),

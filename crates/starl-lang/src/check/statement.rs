@@ -79,7 +79,10 @@ impl Checker {
         let ty = value.ty.clone();
         let name = node.name()?;
         match self.declare_local(&name, ty, Some(Code::UnusedLocal)) {
-            Some(local) => Some(StatementKind::Let { local, value }),
+            Some(local) => {
+                self.body.dimensions[local.index()] = self.dimension(&value);
+                Some(StatementKind::Let { local, value })
+            }
             None => Some(StatementKind::Evaluate(value)),
         }
     }
@@ -124,6 +127,9 @@ impl Checker {
             let joined = self.arithmetic(operator, left, value.clone(), node.span());
             self.fit(joined, &read, "the result");
         }
+        if matches!(operator, BinaryOperator::Add | BinaryOperator::Subtract) {
+            self.check_assigned_dimension(&place, &value);
+        }
         match resolve(operator) {
             Some(operator) => StatementKind::Update {
                 place,
@@ -154,6 +160,7 @@ impl Checker {
             }
             _ => self.expect(value, &ty, &role),
         };
+        self.check_assigned_dimension(&place, &value);
         StatementKind::Assign { place, value }
     }
 

@@ -155,6 +155,8 @@ codes! {
     NotIndexable = "E0227",
     /// A range that is neither run over nor looked in.
     MisplacedRange = "E0228",
+    /// Lengths, angles and numbers without a unit mixed.
+    MixedDimensions = "E0229",
     /// Something called that cannot be, or not called that must be.
     NotCallable = "E0230",
     /// Too many or too few arguments.

@@ -52,7 +52,7 @@ impl Generator<'_> {
         if place == Place::Property(true) {
             for (name, ty) in [
                 ("position", Type::Point),
-                ("heading", Type::Float),
+                ("(heading / 1rad)", Type::Float),
                 ("finished", Type::Bool),
                 ("up", Type::Bool),
                 ("me", Type::Robot),
@@ -86,13 +86,13 @@ impl Generator<'_> {
         self.shared_names(&format!("{robot}."), robot, found);
         for (name, ty) in [
             ("position", Type::Point),
-            ("heading", Type::Float),
             ("finished", Type::Bool),
             ("up", Type::Bool),
             ("id", Type::Robot),
         ] {
             found(&format!("{robot}.{name}"), &ty);
         }
+        found(&format!("({robot}.heading / 1rad)"), &Type::Float);
     }
 
     /// Built-in names that ask the robot.
@@ -100,7 +100,7 @@ impl Generator<'_> {
         for (name, ty) in [
             ("me", Type::Robot),
             ("position", Type::Point),
-            ("heading", Type::Float),
+            ("(heading / 1rad)", Type::Float),
             ("velocity", Type::Point),
             ("now", Type::Time),
             ("peers", Type::set(Type::Robot)),

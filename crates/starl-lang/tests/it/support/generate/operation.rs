@@ -129,12 +129,14 @@ impl Generator<'_> {
             }
             9 => {
                 let name = ["atan2", "pow"][self.choices.below(2)];
-                self.applied(name, &[&Float, &Float], depth)
+                let applied = self.applied(name, &[&Float, &Float], depth);
+                Text::atom(format!("({} / 1rad)", applied.text))
             }
             10 => self.applied("Float", &[&Int], depth),
             11 => {
                 let name = ["distance", "bearing"][self.choices.below(2)];
-                self.applied(name, &[&Point, &Point], depth)
+                let applied = self.applied(name, &[&Point, &Point], depth);
+                Text::atom(format!("({} / 1m)", applied.text))
             }
             12 => {
                 let base = self
