@@ -16,6 +16,7 @@ import { assist, layOut } from "./assist.ts";
 import { explain } from "./explain.tsx";
 import { languageOf, look } from "./look.ts";
 import { difference, offsetOf, type Place, type Range, rangeOf, spanOf } from "./offsets.ts";
+import { wrapping } from "./wrapping.ts";
 
 /** Of files that were shown, by project and path. */
 const states = new Map<string, EditorState>();
@@ -120,6 +121,7 @@ export class Pane {
         if (update.docChanged && !readOnly) this.onEdit(path, update.state.doc.toString());
       }),
       look,
+      wrapping,
       languageOf(path),
       assist(path),
       keymap.of([
