@@ -202,6 +202,12 @@ export class Run {
     return this.client.ask({ apply: intervention });
   }
 
+  /** Steers the run now. A run that stands still goes on by one step, so that what was done is seen. */
+  async applyAndShow(intervention: Intervention): Promise<void> {
+    await this.apply(intervention);
+    if (!this.playing.value) await this.step();
+  }
+
   /** The scenario with everything that was applied, as the text of a file. */
   scenario(): Promise<string> {
     return this.client.ask<string>({ scenario: true });
