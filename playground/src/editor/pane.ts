@@ -32,6 +32,7 @@ export interface File {
 export class Pane {
   #view: EditorView;
   #file: File;
+  #resized: ResizeObserver;
 
   constructor(
     host: HTMLElement,
@@ -43,6 +44,8 @@ export class Pane {
     root.addEventListener("keydown", keepKeys);
     this.#file = file;
     this.#view = new EditorView({ state: this.#state(file), root, parent: root });
+    this.#resized = new ResizeObserver(() => this.#keepCursorInView());
+    this.#resized.observe(host);
   }
 
   /** Shows another file, or the same one with what others have changed. */
@@ -86,8 +89,15 @@ export class Pane {
   }
 
   destroy(): void {
+    this.#resized.disconnect();
     this.#keep();
     this.#view.destroy();
+  }
+
+  /** Problems that appear below the editor leave it less room, while a person writes there. */
+  #keepCursorInView(): void {
+    const { hasFocus, state } = this.#view;
+    if (hasFocus) this.#view.dispatch({ effects: EditorView.scrollIntoView(state.selection.main.head) });
   }
 
   #keep(): void {
