@@ -6,7 +6,7 @@ import { Refused } from "./remote.ts";
 
 /** Bytes that are fetched at once. */
 const PART = 1 << 20;
-/** A record of a trace is far shorter; a damaged or hostile file may claim any length. */
+/** The maximum length of a record, bytes. Records of traces are far shorter, but a damaged or hostile file can claim any length. */
 const LONGEST = 256 << 20;
 
 /** A file of which ranges of bytes can be read. */
@@ -23,7 +23,7 @@ export async function* records(file: Readable): AsyncGenerator<McapTypes.TypedMc
     const left = size - offset;
     reader.append(await file.read(offset, left < PART ? left : BigInt(PART)));
     for (let record = reader.nextRecord(); record; record = reader.nextRecord()) yield record;
-    // What follows the end of a trace is not read.
+    // Bytes after the end of a trace are ignored.
     if (reader.done()) return;
     if (reader.bytesRemaining() > LONGEST) throw new Error("a record is longer than 256 MB");
   }

@@ -1,5 +1,5 @@
-// The world of a trace, as its attachment `starl/world.json` has it. A trace may come from anyone, so nothing in it is
-// trusted: the page never sees a number that is none, or a thing without a name.
+// The world of a trace, as its attachment `starl/world.json` has it. A trace may come from anyone, so
+// everything is checked: the rest of the page relies on finite numbers and on names.
 
 import type { Member, Obstacle, Point, World } from "./types.ts";
 
@@ -7,7 +7,7 @@ export interface RecordedWorld extends World {
   robots: Omit<Member, "program" | "condition">[];
 }
 
-/** Null if it is no such world. */
+/** Returns null if the text is not such a world. */
 export function readWorld(text: string): RecordedWorld | null {
   try {
     const { robots, way_points, obstacles } = record(JSON.parse(text));

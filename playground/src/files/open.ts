@@ -14,7 +14,7 @@ export const ACCEPTED = ".mcap,.starl,.toml,.wpt";
 
 const isTrace = ({ name }: File): boolean => name.toLowerCase().endsWith(".mcap");
 
-/** Says what is wrong with files that cannot be opened, and then leaves everything as it is. */
+/** Files that cannot be opened give a message and change nothing. */
 export async function openFiles(files: File[]): Promise<void> {
   try {
     const traces = files.filter(isTrace);
@@ -52,6 +52,6 @@ async function textOf(file: File): Promise<string> {
   try {
     return new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer());
   } catch {
-    throw new EngineError(`${file.name}: this is no text.`);
+    throw new EngineError(`${file.name}: this is not a text file.`);
   }
 }

@@ -18,11 +18,11 @@ type NameOf = (robot: number) => string;
 
 /** Values that are nested deeper are shown as they are. */
 const DEEPEST = 100;
-/** These say nothing about the moment, and come last. */
+/** These do not change during a run, and come last. */
 const SETTINGS = new Set(["options"]);
 const LEFT_OUT = new Set(["port"]);
 
-/** The fields of a state. A text that is no such state becomes one field without a name. */
+/** The fields of a state. A text that cannot be parsed becomes one field without a name. */
 export function fieldsOf(text: string, nameOf: NameOf): Field[] {
   let node: Node;
   try {
@@ -104,7 +104,7 @@ function place(parts: Node[]): string | null {
   return `(${numbers.map((number) => number.toFixed(3)).join(", ")})`;
 }
 
-/** Reads one value. Throws if the text is no value, or one that is cut off. */
+/** Reads one value. Throws if the text is not a complete value. */
 class Reader {
   #at = 0;
   #depth = 0;
@@ -158,7 +158,7 @@ class Reader {
   #struct(name: string): Node {
     const fields: [string, Node][] = [];
     this.#group("{", "}", () => {
-      // What is left out of a struct.
+      // Omitted fields.
       if (this.#take("..")) return;
       const field = this.#word(/[A-Za-z_]\w*/y);
       this.#expect(":");

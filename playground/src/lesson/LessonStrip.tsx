@@ -69,7 +69,7 @@ export function LessonStrip() {
   );
 }
 
-/** What a step has shown. It comes into view: the text above may be long. */
+/** The result of a step. It scrolls into view, because the text above can be long. */
 function Done({ children }: { children: ComponentChildren }) {
   const element = useRef<HTMLDivElement>(null);
   useEffect(() => element.current?.scrollIntoView({ block: "nearest" }), []);

@@ -87,7 +87,7 @@ interface KnobProps {
 
 /** A slider and a field for the same number; it is applied when a person lets go. */
 function Knob({ label, unit, most, now, make }: KnobProps) {
-  // What a person is about to apply: a run that plays draws the fields again all the time.
+  // The input that is not applied yet: a run that plays draws the fields again all the time.
   const drawn = useSignal<string | null>(null);
   const shown = drawn.value ?? now ?? null;
   const draw = (event: InputEvent & { currentTarget: HTMLInputElement }) => {

@@ -17,7 +17,7 @@ export function Steer() {
     <div class="steer">
       <p class="muted">
         What you do here happens at the moment shown. What was known of later moments is forgotten, and the
-        run goes on from here.
+        run continues from here.
       </p>
       <p class={`said ${said.value?.good ? "good" : "bad"}`} role="status">
         {said.value?.text}

@@ -15,7 +15,7 @@ export function steer(intervention: Intervention): Promise<boolean> {
   return applied(intervention, () => run.apply(intervention), "It takes effect in the next step.");
 }
 
-/** The same; a run that stands still goes on by one step, so that the effect is seen. */
+/** The same; a paused run continues by one step, so that the effect is seen. */
 export function steerAndShow(intervention: Intervention): Promise<boolean> {
   return applied(intervention, () => run.applyAndShow(intervention), "");
 }

@@ -202,7 +202,7 @@ export class Run {
     return this.client.ask({ apply: intervention });
   }
 
-  /** Steers the run now. A run that stands still goes on by one step, so that what was done is seen. */
+  /** Steers the run now. A paused run continues by one step, so that the effect is visible. */
   async applyAndShow(intervention: Intervention): Promise<void> {
     await this.apply(intervention);
     if (!this.playing.value) await this.step();

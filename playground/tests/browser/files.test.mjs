@@ -75,7 +75,7 @@ test("files that are no traces or programs give one message, and the run that is
     [[file("x.mcap", "hello")], /x\.mcap: this file is no trace of StarL/],
     [[file("x.mcap", trace.subarray(0, 200))], /x\.mcap: this file is no trace of StarL/],
     [[file("a.mcap", trace), file("b.mcap", trace)], /one trace at a time/],
-    [[file("x.starl", Uint8Array.of(255, 254, 0))], /x\.starl: this is no text/],
+    [[file("x.starl", Uint8Array.of(255, 254, 0))], /x\.starl: this is not a text file/],
     [[file("x.txt", "hello")], /Open a trace \(\.mcap\), a program/],
     [[file("x.starl", "a".repeat(2_100_000))], /larger than 2 MB/],
   ];
@@ -90,7 +90,7 @@ test("files that are no traces or programs give one message, and the run that is
   await page.getByLabel("To the start").click();
   await page.waitForFunction(() => document.querySelector(".clock").textContent.startsWith("0.00 s"));
 
-  // Damage in the middle is told, and the rest is shown.
+  // Damage in the middle is reported, and the part before it is shown.
   const damaged = Buffer.from(trace);
   damaged[Math.floor(damaged.length * 0.6)] ^= 0x10;
   await field.setInputFiles(file("damaged.mcap", damaged));

@@ -49,7 +49,7 @@ test("a newcomer finds the lesson, types an action and a property, and marks pla
   );
   await run();
   await isDone();
-  // What the step has shown is in view, however long its text is.
+  // The result of the step is in view, however long its text is.
   const after = await strip.locator(".done").boundingBox();
   const text = await strip.locator(".text").boundingBox();
   assert.ok(after.y + after.height <= text.y + text.height + 1);
