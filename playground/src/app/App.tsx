@@ -2,6 +2,7 @@
 // time below.
 
 import { signal } from "@preact/signals";
+import { DropPlace } from "../files/OpenFiles.tsx";
 import { Timeline } from "../timeline/Timeline.tsx";
 import { Transport } from "../timeline/Transport.tsx";
 import { WorldView } from "../world/WorldView.tsx";
@@ -27,6 +28,7 @@ export function App() {
     <div class={`page ${writes ? "with-bench" : ""}`} data-part={part.value}>
       <Header />
       <Problem />
+      {writes && <DropPlace />}
       {writes && (
         <section class="bench" aria-label="Program and scenario">
           <Bench />

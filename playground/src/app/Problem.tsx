@@ -25,7 +25,7 @@ export function Problem() {
               <li key={index}>
                 {problem.file && `${problem.file}:${problem.line}:${problem.column}: `}
                 {problem.message}
-                {problem.help && <span class="muted"> {problem.help}</span>}
+                {problem.help && <span class="muted">; {problem.help}</span>}
               </li>
             ))}
           </ul>

@@ -16,6 +16,7 @@ import { assist, layOut } from "./assist.ts";
 import { explain } from "./explain.tsx";
 import { languageOf, look } from "./look.ts";
 import { difference, offsetOf, type Place, type Range, rangeOf, spanOf } from "./offsets.ts";
+import { wrapping } from "./wrapping.ts";
 
 /** Of files that were shown, by project and path. */
 const states = new Map<string, EditorState>();
@@ -31,6 +32,7 @@ export interface File {
 export class Pane {
   #view: EditorView;
   #file: File;
+  #resized: ResizeObserver;
 
   constructor(
     host: HTMLElement,
@@ -42,6 +44,8 @@ export class Pane {
     root.addEventListener("keydown", keepKeys);
     this.#file = file;
     this.#view = new EditorView({ state: this.#state(file), root, parent: root });
+    this.#resized = new ResizeObserver(() => this.#keepCursorInView());
+    this.#resized.observe(host);
   }
 
   /** Shows another file, or the same one with what others have changed. */
@@ -85,8 +89,15 @@ export class Pane {
   }
 
   destroy(): void {
+    this.#resized.disconnect();
     this.#keep();
     this.#view.destroy();
+  }
+
+  /** Problems that appear below the editor leave it less room, while a person writes there. */
+  #keepCursorInView(): void {
+    const { hasFocus, state } = this.#view;
+    if (hasFocus) this.#view.dispatch({ effects: EditorView.scrollIntoView(state.selection.main.head) });
   }
 
   #keep(): void {
@@ -120,6 +131,7 @@ export class Pane {
         if (update.docChanged && !readOnly) this.onEdit(path, update.state.doc.toString());
       }),
       look,
+      wrapping,
       languageOf(path),
       assist(path),
       keymap.of([

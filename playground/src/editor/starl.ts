@@ -1,6 +1,6 @@
 // Colours for the StarL language, as editors/vscode/syntaxes has them.
 
-import { indentService, StreamLanguage, type StringStream } from "@codemirror/language";
+import { type IndentContext, indentService, StreamLanguage, type StringStream } from "@codemirror/language";
 
 const DECLARATIONS = new Set(
   "program library import enum record message function param const allread allwrite stable role init atomic on check invariant always eventually".split(
@@ -62,12 +62,20 @@ export const starl = StreamLanguage.define<State>({
 /** A block is indented by four spaces, as `starl fmt` does. */
 export const starlIndent = indentService.of((context, pos) => {
   const line = context.lineAt(pos, 1);
-  if (line.from === 0) return 0;
-  const before = context.state.doc.lineAt(line.from - 1);
-  const indent = /^ */.exec(before.text)?.[0].length ?? 0;
+  const before = lineBefore(context, pos);
+  // A blank line ends a declaration.
+  if (before === null || before.trim() === "") return 0;
+  const indent = /^ */.exec(before)?.[0].length ?? 0;
   if (/^\s*(elif|else)\b/.test(line.text)) return Math.max(0, indent - 4);
-  return opensBlock(before.text) ? indent + 4 : indent;
+  return opensBlock(before) ? indent + 4 : indent;
 });
+
+/** The text of the line before; null at the start. While Enter is handled, that is the part before the cursor. */
+function lineBefore(context: IndentContext, pos: number): string | null {
+  if (context.simulatedBreak === pos) return context.lineAt(pos, -1).text;
+  const { from } = context.state.doc.lineAt(pos);
+  return from === 0 ? null : context.state.doc.lineAt(from - 1).text;
+}
 
 /** Whether what follows a line belongs to it. */
 const opensBlock = (line: string): boolean =>

@@ -6,6 +6,8 @@ import { Refused } from "./remote.ts";
 
 /** Bytes that are fetched at once. */
 const PART = 1 << 20;
+/** The maximum length of a record, bytes. Records of traces are far shorter, but a damaged or hostile file can claim any length. */
+const LONGEST = 256 << 20;
 
 /** A file of which ranges of bytes can be read. */
 export interface Readable extends McapTypes.IReadable {
@@ -21,6 +23,9 @@ export async function* records(file: Readable): AsyncGenerator<McapTypes.TypedMc
     const left = size - offset;
     reader.append(await file.read(offset, left < PART ? left : BigInt(PART)));
     for (let record = reader.nextRecord(); record; record = reader.nextRecord()) yield record;
+    // Bytes after the end of a trace are ignored.
+    if (reader.done()) return;
+    if (reader.bytesRemaining() > LONGEST) throw new Error("a record is longer than 256 MB");
   }
 }
 
@@ -38,8 +43,15 @@ export async function* arriving(url: string): AsyncGenerator<McapTypes.TypedMcap
 
 /** The time of the last message by the index at the end of the file, s; null if there is no index. */
 export async function lastTime(file: Readable): Promise<number | null> {
+  const readable: Readable = {
+    size: () => file.size(),
+    read: (offset, length) => {
+      if (length > LONGEST) throw new Error("the index is longer than 256 MB");
+      return file.read(offset, length);
+    },
+  };
   try {
-    const reader = await McapIndexedReader.Initialize({ readable: file });
+    const reader = await McapIndexedReader.Initialize({ readable });
     return reader.statistics ? Number(reader.statistics.messageEndTime) / 1e9 : null;
   } catch {
     return null;

@@ -7,6 +7,7 @@ import type { Recorded } from "../../../apps/starl-wasm/starl.d.mts";
 import { firstWhere } from "../run/search.ts";
 import { RECORDED } from "./engine.ts";
 import { arriving, LocalFile, lastTime, type Readable, records, ServedFile } from "./mcap.ts";
+import { type RecordedWorld, readWorld } from "./recorded-world.ts";
 import { Refused } from "./remote.ts";
 import {
   type Intervention,
@@ -18,7 +19,6 @@ import {
   type Source,
   type TraceRecord,
   type Update,
-  type World,
 } from "./types.ts";
 
 const POSE = "/starl/pose";
@@ -40,6 +40,16 @@ interface Summary {
   end_ns: number;
 }
 
+/** The page draws and lists each robot; more than this would freeze it. */
+const MOST_ROBOTS = 10_000;
+
+export function refuseTooMany(robots: number): void {
+  if (robots <= MOST_ROBOTS) return;
+  throw new Refused(
+    `There are ${robots} robots. The page shows at most ${MOST_ROBOTS}; run more with the command \`starl run\`.`,
+  );
+}
+
 type Post = (update: Update, transfer: Transferable[]) => void;
 
 export class Playback {
@@ -47,7 +57,8 @@ export class Playback {
   #now = 0;
   #known = 0;
   #read = false;
-  #whole = Promise.resolve();
+  /** Ends when everything is read. */
+  whole = Promise.resolve();
   /** How the run was steered, and when, ns. */
   #interventions: [number, Intervention][] = [];
   #closed = false;
@@ -63,6 +74,9 @@ export class Playback {
   #messages = { sent: 0, delivered: 0, lost: 0, dropped: 0, retransmitted: 0 };
   #collisions = 0;
   #conditions: Float64Array;
+  /** With the robots that have joined so far, and whether the page does not know the last of them yet. */
+  #fleet: Member[];
+  #hasJoined = false;
   #frames: number[] = [];
   #fresh: TraceRecord[] = [];
 
@@ -71,26 +85,35 @@ export class Playback {
     private readonly start: Beginning,
     opened: Opened,
     private readonly post: Post,
+    private readonly fail: (message: string) => void,
     private readonly grows: boolean,
   ) {
     this.opened = opened;
     this.#following = grows;
+    this.#fleet = [...opened.fleet];
     this.#conditions = new Float64Array(opened.fleet.length * POSE_NUMBERS);
   }
 
-  static async start(source: Source & { kind: "trace" | "fleet" }, post: Post): Promise<Playback> {
+  /** `fail` is called if the trace turns out to be damaged. */
+  static async start(
+    source: Source & { kind: "trace" | "fleet" },
+    post: Post,
+    fail: (message: string) => void,
+  ): Promise<Playback> {
     const grows = source.kind === "fleet";
     const file = grows ? null : await opened(source.from);
     const trace = file ? records(file) : arriving(String(source.from));
     const start = await beginning(trace).catch((error: Error) => {
       throw new Refused(`${source.name}: this is no trace that can be read: ${error.message}`);
     });
-    const world = start.attachments.get("starl/world.json");
+    const text = start.attachments.get("starl/world.json");
+    const world = text === undefined ? null : readWorld(text);
     if (!start.about || !world) throw new Refused(`${source.name}: this file is no trace of StarL`);
+    refuseTooMany(world.robots.length);
     const end = file && (await lastTime(file));
-    const about = describe(source.name, start.about, JSON.parse(world), end ?? 0);
-    const playback = new Playback(trace, start, about, post, grows);
-    playback.#whole = playback.#load();
+    const about = describe(source.name, start.about, world, end ?? 0);
+    const playback = new Playback(trace, start, about, post, fail, grows);
+    playback.whole = playback.#load();
     return playback;
   }
 
@@ -153,11 +176,30 @@ export class Playback {
     if (scenario === undefined || kept.length === 0) {
       throw new Refused("the trace does not hold what it takes to run it again");
     }
-    await this.#whole;
+    await this.whole;
     return { scenario, files, interventions: this.#interventions };
   }
 
+  /** Reads as far as the trace can be read, and says so if it is damaged. */
   async #load(): Promise<void> {
+    let damage: unknown = null;
+    try {
+      await this.#readAll();
+    } catch (error) {
+      damage = error;
+    }
+    if (this.#closed) return;
+    this.#frame(this.#known);
+    this.#read = true;
+    this.#update();
+    if (damage === null) return;
+    const reason = damage instanceof Error ? damage.message : String(damage);
+    this.fail(
+      `${this.opened.title}: the trace is damaged after ${this.#known.toFixed(3)} s (${reason}). It is shown up to there.`,
+    );
+  }
+
+  async #readAll(): Promise<void> {
     let due = SAMPLE;
     let heard = performance.now();
     const wanted = new Set([POSE, ESTIMATE, SUMMARY, ...RECORDED]);
@@ -169,17 +211,34 @@ export class Playback {
       const topic = record.type === "Message" ? topics.get(record.channelId) : undefined;
       if (record.type !== "Message" || !topic || !wanted.has(topic)) continue;
       const time = Number(record.logTime) / 1e9;
-      for (; time >= due; due += SAMPLE) this.#frame(due - SAMPLE);
-      this.#take(topic, Number(record.logTime), JSON.parse(decoder.decode(record.data)));
+      if (time >= due) due = this.#framesBefore(time, due);
+      this.#take(topic, Number(record.logTime), this.#message(decoder.decode(record.data)));
       this.#known = Math.max(this.#known, time);
       if (performance.now() - heard < READ_FOR) continue;
       this.#update();
       await new Promise((resolve) => setTimeout(resolve));
       heard = performance.now();
     }
-    this.#frame(this.#known);
-    this.#read = true;
-    this.#update();
+  }
+
+  /** Adds the frames that are due before `time`; returns when the next one is. While nothing is recorded two are enough. */
+  #framesBefore(time: number, due: number): number {
+    this.#frame(due - SAMPLE);
+    const next = (Math.floor(time / SAMPLE) + 1) * SAMPLE;
+    if (next > due + 1.5 * SAMPLE) this.#frame(next - 2 * SAMPLE);
+    return next;
+  }
+
+  /** Throws if it is not about a robot of the fleet. */
+  #message(text: string): TraceRecord["message"] & Record<string, unknown> {
+    const message = JSON.parse(text);
+    if (typeof message !== "object" || message === null || Array.isArray(message))
+      throw new Error("a message is no object");
+    for (const robot of [message.robot, message.from]) {
+      const isOne = Number.isInteger(robot) && robot >= 0 && robot < this.#fleet.length;
+      if (robot !== undefined && robot !== null && !isOne) throw new Error(`there is no robot ${robot}`);
+    }
+    return message;
   }
 
   #take(topic: string, time_ns: number, message: TraceRecord["message"] & Record<string, unknown>): void {
@@ -211,7 +270,7 @@ export class Playback {
         break;
       }
       case "/starl/intervention":
-        this.#interventions.push([time_ns, JSON.parse(String(message.intervention))]);
+        this.#steer(time_ns, JSON.parse(String(message.intervention)));
         break;
       case "/starl/status":
         this.#conditions[at + POSE_NUMBERS - 1] = message.status === "failed" ? 2 : 1;
@@ -236,6 +295,19 @@ export class Playback {
     this.#fresh.push({ time_ns, topic, message });
   }
 
+  #steer(time_ns: number, intervention: Intervention): void {
+    this.#interventions.push([time_ns, intervention]);
+    if (typeof intervention !== "object" || !("join" in intervention)) return;
+    const { like, name } = intervention.join;
+    const model = this.#fleet[like];
+    if (!model || this.#fleet.length >= MOST_ROBOTS) throw new Error("a robot joins that cannot be shown");
+    this.#fleet.push({ ...model, id: this.#fleet.length, name: String(name) });
+    const conditions = new Float64Array(this.#fleet.length * POSE_NUMBERS);
+    conditions.set(this.#conditions);
+    this.#conditions = conditions;
+    this.#hasJoined = true;
+  }
+
   /** A fleet that runs tells so in which state programs are. */
   #note(time_ns: number, { robot, name, fields }: TraceRecord["message"] & Record<string, unknown>): void {
     const field = (fields as { name: string; text?: string }[] | undefined)?.[0];
@@ -245,7 +317,7 @@ export class Playback {
 
   /** Where programs are at the moment shown. */
   #statesNow(): (string | null)[] {
-    const states: (string | null)[] = this.opened.fleet.map(() => null);
+    const states: (string | null)[] = this.#fleet.map(() => null);
     for (const [time, robot, state] of this.#states) {
       if (time > this.#now) break;
       states[robot] = state;
@@ -254,7 +326,7 @@ export class Playback {
   }
 
   #frame(time: number): void {
-    this.#frames.push(time, this.opened.fleet.length, ...this.#conditions);
+    this.#frames.push(time, this.#fleet.length, ...this.#conditions);
   }
 
   #update(pace = 0): void {
@@ -274,18 +346,19 @@ export class Playback {
       records,
       cut: null,
       states: this.#states.length > 0 ? this.#statesNow() : [],
-      fleet: null,
+      fleet: this.#hasJoined ? this.#fleet : null,
       world: null,
       robots: [],
       report: this.#report(over),
       stopped: null,
       pace,
     };
+    this.#hasJoined = false;
     this.post(update, [frames.buffer]);
   }
 
   #report(over: boolean): Report {
-    const robots = this.opened.fleet.length;
+    const robots = this.#fleet.length;
     return {
       now: this.#now,
       over,
@@ -314,11 +387,7 @@ function position(times: number[], time: number): number {
 function describe(
   name: string,
   about: Map<string, string>,
-  world: {
-    robots: Omit<Member, "program" | "condition">[];
-    way_points: World["way_points"];
-    obstacles: unknown[];
-  },
+  { robots, ...world }: RecordedWorld,
   duration: number,
 ): Opened {
   const program = about.get("program") ?? "";
@@ -328,36 +397,10 @@ function describe(
     duration,
     stepLength: SAMPLE,
     warnings: [],
-    fleet: world.robots.map((robot) => ({ ...robot, program, condition: "running" })),
-    world: {
-      obstacles: world.obstacles.map((obstacle, index) => ({
-        index,
-        obstacle: shape(obstacle),
-        hidden: false,
-      })),
-      way_points: world.way_points,
-      things: [],
-    },
+    fleet: robots.map((robot) => ({ ...robot, program, condition: "running" })),
+    world,
     live: false,
   };
-}
-
-/** An obstacle of a trace, as the simulator gives it. */
-function shape(obstacle: unknown): World["obstacles"][number]["obstacle"] {
-  const {
-    circle,
-    polygon,
-    box,
-    height = null,
-  } = obstacle as {
-    circle?: { center: { x: number; y: number; z: number }; radius: number };
-    polygon?: { x: number; y: number; z: number }[];
-    box?: { low: { x: number; y: number; z: number }; high: { x: number; y: number; z: number } };
-    height?: { low: number; high: number } | null;
-  };
-  if (circle) return { Circle: { ...circle, height } };
-  if (box) return { Cuboid: box };
-  return { Polygon: { base: polygon ?? [], height } };
 }
 
 /** The header before the messages. */

@@ -4,7 +4,7 @@ import { load, type Starl, StarlError } from "../../../apps/starl-wasm/starl.mjs
 import { Driver } from "./driver.ts";
 import { RECORDED } from "./engine.ts";
 import { moduleSource } from "./module.ts";
-import { Playback } from "./playback.ts";
+import { Playback, refuseTooMany } from "./playback.ts";
 import { Refused, remote, Socket } from "./remote.ts";
 import type { FromWorker, Opened, Request, Source, ToWorker, Update } from "./types.ts";
 
@@ -17,9 +17,6 @@ async function starl(): Promise<Starl> {
 }
 
 let shown: Driver | Playback | null = null;
-
-/** The page draws and lists each robot; more than this would freeze it. */
-const MOST_ROBOTS = 10_000;
 
 const say = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
 const post = (update: Update, transfer: Transferable[]) => say({ update }, transfer);
@@ -61,22 +58,20 @@ async function answer(request: Request): Promise<unknown> {
   return run.report();
 }
 
+/** The run that is shown ends once the other one has begun, so it remains if that one cannot be opened. */
 async function open(source: Source): Promise<Opened> {
-  // Before the trace is closed.
-  const again = source.kind === "again" ? await simulateAgain() : null;
-  await shown?.close().catch(() => undefined);
-  shown = null;
-  shown = source.kind === "again" ? again : await start(source);
-  if (!shown) throw new Refused("nothing is open");
-  const robots = shown.opened.fleet.length;
-  if (robots > MOST_ROBOTS) {
-    await shown.close().catch(() => undefined);
-    shown = null;
-    throw new Refused(
-      `There are ${robots} robots. The page shows at most ${MOST_ROBOTS}; run more with the command \`starl run\`.`,
-    );
+  const before = shown;
+  await before?.pause().catch(() => undefined);
+  const next = source.kind === "again" ? await simulateAgain() : await start(source);
+  try {
+    refuseTooMany(next.opened.fleet.length);
+  } catch (error) {
+    await next.close().catch(() => undefined);
+    throw error;
   }
-  return shown.opened;
+  shown = next;
+  await before?.close().catch(() => undefined);
+  return next.opened;
 }
 
 async function simulateAgain(): Promise<Driver> {
@@ -100,6 +95,6 @@ async function start(source: Exclude<Source, { kind: "again" }>): Promise<Driver
     }
     case "trace":
     case "fleet":
-      return Playback.start(source, post);
+      return Playback.start(source, post, (message) => say({ failed: message }));
   }
 }

@@ -1,8 +1,10 @@
 // Every example with a picture, where a click opens its files and its run; and the tasks for learning.
 
 import { useEffect } from "preact/hooks";
+import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
 import { Projects } from "../project/Projects.tsx";
+import { recent } from "../project/project.ts";
 import { examples, loadExamples, openExample, titleOf } from "./examples.ts";
 import { grouped } from "./groups.ts";
 import { Tasks } from "./Tasks.tsx";
@@ -22,6 +24,7 @@ export function Gallery() {
   }, []);
   return (
     <div class="gallery">
+      {recent.value.length === 0 && <Welcome />}
       <Projects />
       {examples.value.length === 0 && <p class="muted">Loading examples …</p>}
       {grouped(examples.value).map(([heading, members]) => (
@@ -48,6 +51,26 @@ export function Gallery() {
       ))}
       <Tasks />
     </div>
+  );
+}
+
+/** For a first visit. */
+function Welcome() {
+  return (
+    <section class="welcome">
+      <p>
+        <b>New here?</b> Click an example to see it run. In the first lesson you write a program for a team of
+        robots, in ten minutes.
+      </p>
+      <button
+        type="button"
+        onClick={() => {
+          benchTab.value = "lesson";
+        }}
+      >
+        First lesson
+      </button>
+    </section>
   );
 }
 

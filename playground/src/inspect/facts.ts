@@ -1,6 +1,7 @@
 // All there is to see of a robot at one moment, as rows of a table. Robots are compared row by row.
 
 import type { Point, Robot } from "../engine/types.ts";
+import { fieldsOf } from "./debug.ts";
 
 export interface Fact {
   name: string;
@@ -28,7 +29,9 @@ const SECTIONS = [
   "Parameters",
 ];
 
-export function sectionsOf(robot: Robot, nameOf: (robot: number) => string): Section[] {
+type Name = (robot: number) => string;
+
+export function sectionsOf(robot: Robot, nameOf: Name): Section[] {
   const facts: Record<string, Fact[]> = {
     Program: program(robot),
     Variables: variables(robot, false),
@@ -37,11 +40,7 @@ export function sectionsOf(robot: Robot, nameOf: (robot: number) => string): Sec
       value: error ?? (enabled ? "enabled" : "not enabled"),
       mark: error ? "bad" : enabled ? "on" : undefined,
     })),
-    Primitives: robot.primitives.map(({ name, kind, port, state }) => ({
-      name,
-      value: state ?? kind,
-      hint: port === null ? kind : `${kind}, port ${port}`,
-    })),
+    Primitives: robot.primitives.flatMap((primitive) => primitiveFacts(primitive, nameOf)),
     Timers: timers(robot),
     Mailbox: robot.mailbox.map(({ from, sequence, to, port, at, bytes }) => ({
       name: `${nameOf(from)} #${sequence}`,
@@ -67,6 +66,18 @@ const variables = (robot: Robot, parameter: boolean): Fact[] =>
   robot.variables
     .filter((variable) => variable.parameter === parameter)
     .map(({ name, type, value }) => ({ name, value, hint: type }));
+
+/** Its kind, and the fields of its state. */
+function primitiveFacts({ name, kind, port, state }: Robot["primitives"][number], nameOf: Name): Fact[] {
+  const hint = port === null ? kind : `${kind}, port ${port}`;
+  const fields = state === null ? [] : fieldsOf(state, nameOf);
+  const [only] = fields;
+  if (only?.name === "") return [{ name, value: only.value, hint }];
+  return [
+    { name, value: kind, hint },
+    ...fields.map((field) => ({ name: `${name}.${field.name}`, value: field.value, hint })),
+  ];
+}
 
 /** Timers that one primitive armed in the same way are distinguished by their order. */
 function timers(robot: Robot): Fact[] {

@@ -1,6 +1,8 @@
 // The present step of the lesson, above what is written.
 
 import { useSignal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
 import { close, goTo, isShown, progress, solve, step } from "./lesson.ts";
 import { STEPS } from "./steps.tsx";
 import "../styles/lesson.css";
@@ -43,7 +45,7 @@ export function LessonStrip() {
       {!folded.value && (
         <div class="text">
           {shown.text}
-          <div role="status">{isDone && <div class="done">{shown.after}</div>}</div>
+          <div role="status">{isDone && <Done>{shown.after}</Done>}</div>
         </div>
       )}
       <div class="row">
@@ -64,5 +66,16 @@ export function LessonStrip() {
         )}
       </div>
     </section>
+  );
+}
+
+/** The result of a step. It scrolls into view, because the text above can be long. */
+function Done({ children }: { children: ComponentChildren }) {
+  const element = useRef<HTMLDivElement>(null);
+  useEffect(() => element.current?.scrollIntoView({ block: "nearest" }), []);
+  return (
+    <div ref={element} class="done">
+      {children}
+    </div>
   );
 }

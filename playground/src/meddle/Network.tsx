@@ -87,8 +87,12 @@ interface KnobProps {
 
 /** A slider and a field for the same number; it is applied when a person lets go. */
 function Knob({ label, unit, most, now, make }: KnobProps) {
-  const drawn = useSignal<number | null>(null);
+  // The input that is not applied yet: a run that plays draws the fields again all the time.
+  const drawn = useSignal<string | null>(null);
   const shown = drawn.value ?? now ?? null;
+  const draw = (event: InputEvent & { currentTarget: HTMLInputElement }) => {
+    drawn.value = event.currentTarget.value;
+  };
   const apply = (text: string) => {
     const value = Number(text);
     drawn.value = null;
@@ -104,9 +108,7 @@ function Knob({ label, unit, most, now, make }: KnobProps) {
         step={most / 100}
         value={shown ?? 0}
         aria-label={`${label}, ${unit}`}
-        onInput={(event) => {
-          drawn.value = Number(event.currentTarget.value);
-        }}
+        onInput={draw}
         onChange={(event) => apply(event.currentTarget.value)}
       />
       <input
@@ -115,6 +117,7 @@ function Knob({ label, unit, most, now, make }: KnobProps) {
         step="any"
         value={shown ?? ""}
         aria-label={`${label} as a number, ${unit}`}
+        onInput={draw}
         onChange={(event) => apply(event.currentTarget.value)}
       />
       <span class="unit">{unit}</span>

@@ -2,7 +2,7 @@
 
 import type { Condition } from "../engine/types.ts";
 import { nameOf } from "../inspect/names.ts";
-import { said, steer } from "./steering.ts";
+import { said, steerAndShow } from "./steering.ts";
 
 export function Quick({ robot, condition }: { robot: number; condition: Condition }) {
   if (condition === "left") return null;
@@ -14,7 +14,7 @@ export function Quick({ robot, condition }: { robot: number; condition: Conditio
           type="button"
           class="small"
           aria-label={`Crash ${nameOf(robot)}`}
-          onClick={() => steer({ fault: { crash: [robot] } })}
+          onClick={() => steerAndShow({ fault: { crash: [robot] } })}
         >
           Crash
         </button>
@@ -23,7 +23,7 @@ export function Quick({ robot, condition }: { robot: number; condition: Conditio
         type="button"
         class="small"
         aria-label={`Restart ${nameOf(robot)}`}
-        onClick={() => steer({ fault: { restart: [robot] } })}
+        onClick={() => steerAndShow({ fault: { restart: [robot] } })}
       >
         Restart
       </button>

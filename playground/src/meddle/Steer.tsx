@@ -3,6 +3,7 @@
 
 import { run } from "../app/context.ts";
 import { download } from "../app/download.ts";
+import { zip } from "../share/zip.ts";
 import { Applied } from "./Applied.tsx";
 import { Network } from "./Network.tsx";
 import { Orders } from "./Orders.tsx";
@@ -16,7 +17,7 @@ export function Steer() {
     <div class="steer">
       <p class="muted">
         What you do here happens at the moment shown. What was known of later moments is forgotten, and the
-        run goes on from here.
+        run continues from here.
       </p>
       <p class={`said ${said.value?.good ? "good" : "bad"}`} role="status">
         {said.value?.text}
@@ -35,9 +36,7 @@ export function Steer() {
       </Part>
       <Part title="What was done" open>
         <Applied />
-        <button type="button" onClick={save}>
-          Save as scenario
-        </button>
+        <Save />
       </Part>
     </div>
   );
@@ -62,10 +61,41 @@ function Part({
   );
 }
 
-async function save(): Promise<void> {
+/** The file of the steered run. It names programs, which stand in other files. */
+function Save() {
+  const source = run.source.value;
+  const programs = source?.kind === "files" ? source.files : null;
+  const name = `${run.opened.value?.title.toLowerCase().replace(/[^a-z0-9]+/g, "-") || "run"}-steered`;
+  return (
+    <div class="acts">
+      <button
+        type="button"
+        title="Repeats this run: starl run FILE"
+        onClick={() => saveAs((scenario) => download(`${name}.toml`, "application/toml", scenario))}
+      >
+        Save as scenario
+      </button>
+      {programs && (
+        <button
+          type="button"
+          title="The scenario with the programs that it names, ready for the command"
+          onClick={() =>
+            saveAs((scenario) => {
+              const files = new Blob([zip({ ...programs, [`${name}.toml`]: scenario })]);
+              download(`${name}.zip`, "application/zip", files);
+            })
+          }
+        >
+          With its programs (.zip)
+        </button>
+      )}
+    </div>
+  );
+}
+
+async function saveAs(give: (scenario: string) => void): Promise<void> {
   try {
-    const name = run.opened.value?.title.toLowerCase().replace(/[^a-z0-9]+/g, "-") || "run";
-    download(`${name}.toml`, "application/toml", await run.scenario());
+    give(await run.scenario());
   } catch (error) {
     said.value = { good: false, text: error instanceof Error ? error.message : String(error) };
   }

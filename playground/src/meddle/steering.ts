@@ -11,14 +11,24 @@ import { wordsOf } from "./words.ts";
 export const said = signal<{ good: boolean; text: string } | null>(null);
 
 /** Applies an intervention at the moment shown. Returns whether it was accepted. */
-export async function steer(intervention: Intervention): Promise<boolean> {
+export function steer(intervention: Intervention): Promise<boolean> {
+  return applied(intervention, () => run.apply(intervention), "It takes effect in the next step.");
+}
+
+/** The same; a paused run continues by one step, so that the effect is seen. */
+export function steerAndShow(intervention: Intervention): Promise<boolean> {
+  return applied(intervention, () => run.applyAndShow(intervention), "");
+}
+
+async function applied(
+  intervention: Intervention,
+  apply: () => Promise<void>,
+  when: string,
+): Promise<boolean> {
   const what = wordsOf(intervention, nameOf);
   try {
-    await run.apply(intervention);
-    said.value = {
-      good: true,
-      text: `At ${seconds(run.now.value)}: ${what}. It takes effect in the next step.`,
-    };
+    await apply();
+    said.value = { good: true, text: `At ${seconds(run.now.value)}: ${what}. ${when}` };
     return true;
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);

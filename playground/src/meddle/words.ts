@@ -1,6 +1,6 @@
 // An intervention in words.
 
-import type { Fault, Intervention, NetworkKnob } from "../engine/types.ts";
+import type { Fault, Intervention, NetworkKnob, Point } from "../engine/types.ts";
 
 type Name = (robot: number) => string;
 
@@ -9,7 +9,7 @@ export function wordsOf(intervention: Intervention, name: Name): string {
   if ("fault" in intervention) return fault(intervention.fault, names);
   if ("push" in intervention) {
     const { robot, by } = intervention.push;
-    return `push ${name(robot)} by (${by.x}, ${by.y}, ${by.z}) m`;
+    return `push ${name(robot)} by ${point(by)} m`;
   }
   if ("network" in intervention) return `network: ${intervention.network.map(knob).join(", ")}`;
   if ("add_obstacle" in intervention) return "add an obstacle";
@@ -17,12 +17,12 @@ export function wordsOf(intervention: Intervention, name: Name): string {
   if ("remove_obstacle" in intervention) return `remove obstacle ${intervention.remove_obstacle.index}`;
   if ("set_way_point" in intervention) {
     const { name, position } = intervention.set_way_point;
-    return `set waypoint ${name} at (${position.x}, ${position.y}, ${position.z})`;
+    return `set waypoint ${name} at ${point(position)}`;
   }
   if ("remove_way_point" in intervention) return `remove waypoint ${intervention.remove_way_point.name}`;
   if ("set_thing" in intervention) {
     const { name, position } = intervention.set_thing;
-    return `put ${name} at (${position.x}, ${position.y}, ${position.z})`;
+    return `put ${name} at ${point(position)}`;
   }
   if ("remove_thing" in intervention) return `remove ${intervention.remove_thing.name}`;
   if ("tell" in intervention) {
@@ -32,6 +32,9 @@ export function wordsOf(intervention: Intervention, name: Name): string {
   if ("join" in intervention) return `${intervention.join.name} joins, like ${name(intervention.join.like)}`;
   return `${names(intervention.leave)} leave`;
 }
+
+const point = (at: Point): string =>
+  `(${[at.x, at.y, at.z].map((value) => Number(value.toFixed(3))).join(", ")})`;
 
 function fault(fault: Fault, names: (robots: number[]) => string): string {
   if (fault === "heal") return "heal the network";

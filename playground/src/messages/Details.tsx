@@ -29,8 +29,8 @@ export function Details() {
         </p>
       ) : (
         <p class="muted">
-          Choose a message to see where it went; choose an event to go to its moment. Drag to move, turn the
-          wheel to zoom.
+          Choose a message to see where it went; choose an event to go to its moment. Drag to move it; the
+          wheel or two fingers zoom.
         </p>
       )}
     </div>

@@ -28,6 +28,8 @@ export interface Picture {
 }
 
 const FADED = 0.13;
+/** The height of a label of time, px. */
+const LABEL = 13;
 
 export function paint(canvas: HTMLCanvasElement, picture: Picture): void {
   const { width, height } = picture;
@@ -66,7 +68,12 @@ function paintGround(context: CanvasRenderingContext2D, picture: Picture, color:
     context.fillStyle = color("--grid");
     context.fillRect(AXIS, y, width - AXIS, 1);
     context.fillStyle = color("--muted");
-    context.fillText(`${(index * step).toFixed(Math.min(digits, 6))} s`, AXIS - 6, y);
+    // The head would hide half of a label that is level with its lower edge.
+    context.fillText(
+      `${(index * step).toFixed(Math.min(digits, 6))} s`,
+      AXIS - 6,
+      Math.max(y, HEAD + LABEL / 2),
+    );
   }
   for (const { robot, x, chosen } of picture.columns) {
     context.fillStyle = colorOf(robot, picture.robots);

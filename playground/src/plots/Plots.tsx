@@ -164,7 +164,7 @@ function Save({
     try {
       if (label === "CSV") download(`${name}.csv`, "text/csv", csvOf(chart));
       else if (label === "SVG") download(`${name}.svg`, "image/svg+xml", svgOf(chart, PAPER));
-      else download(`${name}.png`, "image/png", await pngOf(svgOf(chart, PAPER), PAPER));
+      else download(`${name}.png`, "image/png", await pngOf(svgOf(chart, PAPER)));
     } catch (error) {
       problem.value = `The file could not be made: ${(error as Error).message}`;
     }

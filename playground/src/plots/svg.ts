@@ -4,6 +4,7 @@ import { type Chart, type Line, type Range, rangeOf, thin, ticksOf } from "./cha
 
 export interface Look {
   width: number;
+  /** With a legend of at most two rows. */
   height: number;
   ground: string;
   text: string;
@@ -18,6 +19,7 @@ const RIGHT = 14;
 const TOP = 30;
 const BOTTOM = 44;
 const LEGEND_ROW = 16;
+const ROWS_WITHIN = 2;
 /** A line and a gap, and about what a letter takes. */
 const LEGEND_ENTRY = 42;
 const LETTER = 6.6;
@@ -26,11 +28,13 @@ const MOST_POINTS = 4000;
 const MOST_ENTRIES = 24;
 
 export function svgOf(chart: Chart, look: Look): string {
-  const { width, height } = look;
+  const { width } = look;
   const entries = chart.lines.slice(0, MOST_ENTRIES);
   const entry = LEGEND_ENTRY + LETTER * Math.max(0, ...entries.map(({ name }) => name.length));
   const perRow = Math.max(1, Math.floor((width - LEFT - RIGHT) / entry));
   const legend = Math.ceil(entries.length / perRow) * LEGEND_ROW;
+  // A long legend makes the picture higher, not the chart smaller.
+  const height = look.height + Math.max(0, legend - ROWS_WITHIN * LEGEND_ROW);
   const box = { left: LEFT, right: width - RIGHT, top: TOP, bottom: height - BOTTOM - legend };
   const [x, y] = scales(chart, box);
   const parts = [
@@ -114,14 +118,14 @@ const escaped = (text: string): string =>
   text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");
 
 /** The chart as a PNG, twice as fine as its size. */
-export async function pngOf(svg: string, { width, height }: Look): Promise<Blob> {
+export async function pngOf(svg: string): Promise<Blob> {
   const url = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   try {
     const image = new Image();
     image.src = url;
     await image.decode();
     const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [2 * width, 2 * height];
+    [canvas.width, canvas.height] = [2 * image.naturalWidth, 2 * image.naturalHeight];
     canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
     const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/png"));
     if (!blob) throw new Error("this browser cannot make a PNG");

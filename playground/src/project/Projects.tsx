@@ -1,6 +1,7 @@
 // The projects that the browser keeps.
 
 import { benchTab } from "../app/Bench.tsx";
+import { OpenButton } from "../files/OpenFiles.tsx";
 import { emptyDraft, forget, open, project, recent, start } from "./project.ts";
 
 export function Projects() {
@@ -10,6 +11,7 @@ export function Projects() {
       <div class="row">
         <h2>Your programs</h2>
         <span class="spread" />
+        <OpenButton />
         <button type="button" onClick={() => begin(() => start(emptyDraft()))}>
           New program
         </button>

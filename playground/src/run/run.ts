@@ -202,6 +202,12 @@ export class Run {
     return this.client.ask({ apply: intervention });
   }
 
+  /** Steers the run now. A paused run continues by one step, so that the effect is visible. */
+  async applyAndShow(intervention: Intervention): Promise<void> {
+    await this.apply(intervention);
+    if (!this.playing.value) await this.step();
+  }
+
   /** The scenario with everything that was applied, as the text of a file. */
   scenario(): Promise<string> {
     return this.client.ask<string>({ scenario: true });

@@ -2,8 +2,11 @@
 
 import { strToU8, zipSync } from "fflate";
 
-export function zip(files: Record<string, string>): Uint8Array<ArrayBuffer> {
-  const contents = Object.entries(files).map(([path, text]): [string, Uint8Array] => [path, strToU8(text)]);
+export function zip(files: Record<string, string | Uint8Array>): Uint8Array<ArrayBuffer> {
+  const contents = Object.entries(files).map(([path, content]): [string, Uint8Array] => [
+    path,
+    typeof content === "string" ? strToU8(content) : content,
+  ]);
   return new Uint8Array(zipSync(Object.fromEntries(contents)));
 }
 

@@ -92,7 +92,7 @@ export class Hand implements Listener {
     const by = { x: move.to.x - move.from.x, y: move.to.y - move.from.y };
     const intervention = movedBy(move.target, by, this.screen.scene);
     if (!intervention) return;
-    run.apply(intervention).catch((error: Error) => {
+    run.applyAndShow(intervention).catch((error: Error) => {
       run.problem.value = error instanceof EngineError ? error : new EngineError(error.message);
     });
   }

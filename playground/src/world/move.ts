@@ -21,9 +21,14 @@ export function placeOf(target: Target, { poses, world }: Scene): Point | null {
   }
 }
 
-/** The intervention that moves it by this distance; null if it no longer exists. */
-export function movedBy(target: Target, by: { x: number; y: number }, { world }: Scene): Intervention | null {
-  const shifted = (point: Point): Point => ({ x: point.x + by.x, y: point.y + by.y, z: point.z });
+/** The intervention that moves it by this distance, to the millimetre; null if it no longer exists. */
+export function movedBy(
+  target: Target,
+  distance: { x: number; y: number },
+  { world }: Scene,
+): Intervention | null {
+  const by = { x: decimals(distance.x, 3), y: decimals(distance.y, 3) };
+  const shifted = ({ x, y, z }: Point): Point => ({ x: decimals(x + by.x, 9), y: decimals(y + by.y, 9), z });
   switch (target.kind) {
     case "robot":
       return { push: { robot: target.robot, by: { ...by, z: 0 } } };
@@ -43,6 +48,9 @@ export function movedBy(target: Target, by: { x: number; y: number }, { world }:
     }
   }
 }
+
+/** A hand is no more exact, and people read these numbers in scenarios. */
+const decimals = (value: number, count: number): number => Number(value.toFixed(count));
 
 function shift(shape: Obstacle, shifted: (point: Point) => Point): Obstacle {
   if ("Polygon" in shape) {

@@ -99,3 +99,18 @@ test("ticks are round, also where all values are the same", () => {
   expect(ticksOf({ low: 0.13, high: 0.98 }, 4)).toEqual([0.2, 0.4, 0.6, 0.8]);
   expect(rangeOf([[3, 3]])).toEqual({ low: 2.5, high: 3.5 });
 });
+
+test("a long legend makes the picture higher, not the chart smaller", () => {
+  const line = { color: "#000", kept: true, x: [0, 1], y: [0, 1] };
+  const chart = (count: number) => ({
+    title: "Paths",
+    xLabel: "x, m",
+    yLabel: "y, m",
+    lines: Array.from({ length: count }, (_, index) => ({ ...line, name: `robot ${index} (1)` })),
+    square: true,
+  });
+  const look = { ...PAPER, width: 240, height: 250 };
+  const height = (svg: string) => Number(/height="(\d+)"/.exec(svg)?.[1]);
+  expect(height(svgOf(chart(2), look))).toBe(250);
+  expect(height(svgOf(chart(12), look))).toBe(250 + 10 * 16);
+});
