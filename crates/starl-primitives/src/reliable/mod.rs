@@ -66,7 +66,7 @@ pub struct Reliable {
     multicast: Outgoing,
     /// The messages of this robot to each robot.
     direct: BTreeMap<RobotId, Outgoing>,
-    /// What other robots send, by [`Stream`].
+    /// The senders, by [`Stream`].
     inboxes: [Peers<Inbox>; 2],
     /// When senders were last answered, where a next answer would still have to wait for that; in their order.
     answered: Vec<((RobotId, Stream), Time)>,

@@ -41,7 +41,7 @@ impl<T: Rest> Peers<T> {
         numbers
     }
 
-    /// What `read` gives for the state of a peer.
+    /// The result of `read` for the state of a peer; none if it has no state.
     pub fn read<R>(&self, peer: RobotId, read: impl FnOnce(&T) -> R) -> Option<R> {
         if let Ok(at) = place(&self.resting, peer) {
             return Some(read(&T::woken(self.resting[at].1)));
@@ -50,7 +50,7 @@ impl<T: Rest> Peers<T> {
         Some(read(&self.busy[at].1))
     }
 
-    /// Takes a peer's state out. What became of it is to be handed to [`Peers::put`].
+    /// Takes a peer's state out. The caller puts it back with [`Peers::put`].
     pub fn take(&mut self, peer: RobotId) -> Option<T> {
         if let Ok(at) = place(&self.resting, peer) {
             return Some(T::woken(self.resting.remove(at).1));
@@ -74,7 +74,7 @@ impl<T: Rest> Peers<T> {
         self.busy.iter().map(|(peer, state)| (*peer, &**state))
     }
 
-    /// The state of a peer that is not at rest. It must not come to rest by what is changed.
+    /// The state of a peer that is not at rest. The change must not put it at rest.
     pub fn busy_mut(&mut self, peer: RobotId) -> Option<&mut T> {
         let at = place(&self.busy, peer).ok()?;
         Some(&mut self.busy[at].1)

@@ -16,7 +16,7 @@ fn late_copies_are_recognised_when_all_is_at_rest() {
                 first_in_first_out,
                 ..Options::default()
             };
-            // Of two copies one comes in time. The other may come long after both robots have come to rest.
+            // Of two copies one comes in time. The other may come when both robots are long at rest.
             let wire = Wire {
                 duplication: 1.0,
                 delay_ms: (1, 20),

@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_new_life_has_does_not_count_for_the_life_that_votes() {
+    fn the_log_of_a_new_life_does_not_count_for_the_life_that_votes() {
         let mut member = leader(3);
         member.put(What::Start);
         has(&mut member, life(1, 2), 2);
