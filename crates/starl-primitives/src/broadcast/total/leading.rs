@@ -245,7 +245,7 @@ mod tests {
         has(&mut member, life(2, 1), 1);
         assert_eq!(member.decided(life(0, 1)), None);
         member.put(What::Start);
-        assert_eq!(member.decided(life(0, 1)), None, "nobody else has it");
+        assert_eq!(member.decided(life(0, 1)), None, "no other robot has it");
         has(&mut member, life(1, 1), 2);
         assert_eq!(member.decided(life(0, 1)), Some(2));
     }
