@@ -743,6 +743,8 @@ pub enum Workload {
     Swarm(SwarmArguments),
     /// Ground robots broadcast at every tick to about eight neighbours
     Radio(RadioArguments),
+    /// Ground robots geocast to some 28 neighbours every 5 seconds
+    Geocast(GeocastArguments),
     /// Ground robots drive to a far waypoint, each running the program of the example Race
     Race(RaceArguments),
 }
@@ -784,6 +786,20 @@ pub struct RadioArguments {
     /// Bodies block the radio
     #[arg(long)]
     pub occluded: bool,
+    /// The common options of all workloads.
+    #[command(flatten)]
+    pub load: LoadArguments,
+}
+
+/// Arguments of `starl bench geocast`.
+#[derive(Args, Debug)]
+pub struct GeocastArguments {
+    /// The number of robots
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, MOST_ROBOTS))]
+    pub robots: u32,
+    /// The robots send nothing: what they cost without their messages
+    #[arg(long)]
+    pub silent: bool,
     /// The common options of all workloads.
     #[command(flatten)]
     pub load: LoadArguments,

@@ -168,16 +168,15 @@ impl Intervention {
             }
             Intervention::Tell { robots, order } => {
                 sort(robots);
-                let mut fields = core::mem::take(&mut order.fields).into_vec();
+                let fields = &mut order.fields;
                 fields.reverse();
                 fields.sort_by(|a, b| a.0.cmp(&b.0));
                 fields.dedup_by(|a, b| a.0 == b.0);
-                for (_, value) in &mut fields {
+                for (_, value) in fields {
                     if let Value::Robots(robots) = value {
                         sort(robots);
                     }
                 }
-                order.fields = fields.into();
             }
             Intervention::Join { pose, .. } => *pose = Pose::level(pose.position, pose.yaw),
             _ => {}

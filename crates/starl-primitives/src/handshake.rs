@@ -38,6 +38,14 @@ impl<T> Handshake<T> {
         }
     }
 
+    /// Listens to an incarnation, of which this is known, and asks for no other.
+    pub fn hearing(incarnation: u32, known: T) -> Handshake<T> {
+        Handshake {
+            heard: Some((incarnation, known)),
+            token: None,
+        }
+    }
+
     /// The token that the next incarnation must answer, drawn if there is none.
     pub fn token(&mut self, robot: &mut Robot<'_>) -> u32 {
         // The clock is mixed in so that a robot whose random stream starts over draws another one.

@@ -124,12 +124,11 @@ impl Run {
         let before = self.simulation.now();
         let known = self.watch.violations().len();
         self.advance();
-        self.records.clear();
-        self.records.extend_from_slice(self.simulation.records());
-        self.records.extend(
-            self.watch.violations()[known..]
-                .iter()
-                .map(|violation| Record {
+        let violations = &self.watch.violations()[known..];
+        if !violations.is_empty() {
+            self.records.extend_from_slice(self.simulation.records());
+            self.records
+                .extend(violations.iter().map(|violation| Record {
                     // A bound may have run out, or a pose been taken, a little earlier.
                     at: violation.at.max(before),
                     robot: violation.robots.first().copied(),
@@ -137,21 +136,23 @@ impl Run {
                         property: violation.property.clone(),
                         text: violation.text.clone().into(),
                     },
-                }),
-        );
-        if self.watch.violations().len() > known {
+                }));
             self.records.sort_by_key(|record| record.at);
         }
-        &self.records
+        self.records()
     }
 
     /// The records of the last [`Run::step`], including violations.
     pub fn records(&self) -> &[Record] {
-        &self.records
+        match self.records.is_empty() {
+            true => self.simulation.records(),
+            false => &self.records,
+        }
     }
 
     /// Advances by one physics step without returning its records.
     pub fn advance(&mut self) {
+        self.records.clear();
         self.simulation.step();
         let records = self.simulation.records();
         self.watch.observe(records, self.simulation.now());

@@ -2,6 +2,7 @@
 //!
 //! To add a program to those that we ship, add a line to [`Registry::default`].
 
+mod beacon;
 mod diffusion;
 mod drive;
 mod keeper;
@@ -9,6 +10,7 @@ mod radio;
 
 use crate::language::SUFFIX;
 use crate::parameters::{Complaint, Parameters};
+use beacon::Beacon;
 use diffusion::Diffusion;
 use drive::Drive;
 use keeper::Keeper;
@@ -55,6 +57,7 @@ impl Default for Registry {
         let drive = "give the drive one command of the model";
         let keeper = "read, write and update registers at random";
         let radio = "drive in circles and broadcast four bytes at every activation";
+        let beacon = "geocast to the surroundings again and again";
         Registry(Vec::new())
             .with("race", race, |parameters| {
                 Race::new(race_options(parameters))
@@ -69,6 +72,13 @@ impl Default for Registry {
                 )
             })
             .with("radio", radio, |_| Radio::default())
+            .with("beacon", beacon, |parameters| {
+                let pause = Duration::from_seconds(5);
+                Beacon::new(
+                    parameters.duration("pause", pause),
+                    parameters.length("radius", 6.0),
+                )
+            })
     }
 }
 

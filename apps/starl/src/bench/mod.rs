@@ -15,6 +15,7 @@ pub fn bench(arguments: &BenchArguments) -> Result<bool, Failure> {
     let (load, workload) = match &arguments.workload {
         Workload::Swarm(swarm) => (&swarm.load, workload::swarm(swarm)),
         Workload::Radio(radio) => (&radio.load, workload::radio(radio)),
+        Workload::Geocast(geocast) => (&geocast.load, workload::geocast(geocast)),
         Workload::Race(race) => (&race.load, workload::race(race)),
     };
     let figures = measure::measure(&workload, load.threads as usize)?;

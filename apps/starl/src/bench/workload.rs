@@ -1,7 +1,7 @@
 //! The workloads as scenarios: a square arena with 1.6 square metres a robot and walls around, small
 //! ground robots strewn over it, ten ticks a second.
 
-use crate::args::{LoadArguments, RaceArguments, RadioArguments, SwarmArguments};
+use crate::args::{GeocastArguments, LoadArguments, RaceArguments, RadioArguments, SwarmArguments};
 
 /// A scenario to measure.
 pub struct Workload {
@@ -44,6 +44,30 @@ pub fn radio(arguments: &RadioArguments) -> Workload {
         },
         scenario: scenario("radio", *robots, load, &network),
         rehearsal: scenario("radio", FEW, load, &network),
+    }
+}
+
+/// The same robots, standing, geocast to all within 3.78 m, some 28 others, every 5 s. Silent ones wait for longer than
+/// a run takes.
+pub fn geocast(arguments: &GeocastArguments) -> Workload {
+    let GeocastArguments {
+        robots,
+        silent,
+        load,
+    } = arguments;
+    let (name, pause) = match silent {
+        true => ("geocast, silent", "1000000h"),
+        false => ("geocast", "5s"),
+    };
+    let of = |robots: u32| {
+        let network = "range = \"3.78m\"\n";
+        let parameters = format!("\n[parameters]\npause = \"{pause}\"\nradius = \"3.78m\"\n");
+        scenario("beacon", robots, load, network) + &parameters
+    };
+    Workload {
+        name,
+        scenario: of(*robots),
+        rehearsal: of(FEW),
     }
 }
 

@@ -179,7 +179,7 @@ impl Told {
             let fields = vec![("state".into(), Value::Text(state.into()))];
             tell(Event::Program {
                 name: "state".into(),
-                fields: fields.into(),
+                fields,
             });
         }
         let count = seen.first + seen.events.len() as u64;

@@ -12,7 +12,7 @@ fn figures(test: &str, arguments: &[&str]) -> Value {
 
 #[test]
 fn threads_change_speed_only() {
-    for workload in ["swarm", "radio"] {
+    for workload in ["swarm", "radio", "geocast"] {
         let digest = |threads| {
             let arguments = [
                 workload,

@@ -13,8 +13,8 @@ use smallvec::SmallVec;
 /// A short text that is usually known at compile time.
 pub type Name = Cow<'static, str>;
 
-/// Details of an event, by name.
-pub type Fields = SmallVec<[(Name, Value); 2]>;
+/// Details of an event, by name. Most events have none: stored inline, they would make all events larger.
+pub type Fields = Vec<(Name, Value)>;
 
 /// A detail of an event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,11 +5,12 @@
 //! Invariant: each message of an incarnation is delivered at most once, and memory is bounded by the window: messages
 //! further ahead are not accepted, so that their sender sends them again.
 
+use super::peers::Rest;
 use super::runs::Runs;
 use crate::handshake::Handshake;
 use alloc::collections::BTreeMap;
 use smallvec::SmallVec;
-use starl_core::{Payload, Time};
+use starl_core::Payload;
 
 /// Messages to deliver, by number.
 pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
@@ -19,8 +20,6 @@ pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
 pub(super) struct Inbox {
     /// The accepted incarnation, and its accepted messages.
     pub lives: Handshake<Sequence>,
-    /// When the sender was last answered.
-    pub answered: Option<Time>,
     /// The pending message to the sender.
     pub owed: Owed,
 }
@@ -42,6 +41,25 @@ impl Inbox {
     pub fn begin(&mut self, incarnation: u32, token: u32, base: u32) -> bool {
         self.lives
             .begin(incarnation, token, || Sequence::from(base))
+    }
+}
+
+impl Rest for Inbox {
+    /// The incarnation that is heard, and the number of its next message.
+    type Resting = (u32, u32);
+
+    fn at_rest(&self) -> Option<(u32, u32)> {
+        let (incarnation, sequence) = self.lives.heard.as_ref()?;
+        let owes_nothing = self.owed == Owed::Nothing && self.lives.asked().is_none();
+        let has_no_gap = sequence.held.is_empty() && sequence.taken.ahead().is_empty();
+        (owes_nothing && has_no_gap).then(|| (*incarnation, sequence.taken.next()))
+    }
+
+    fn woken((incarnation, next): (u32, u32)) -> Inbox {
+        Inbox {
+            lives: Handshake::hearing(incarnation, Sequence::from(next)),
+            owed: Owed::Nothing,
+        }
     }
 }
 

@@ -99,9 +99,14 @@ impl Line {
     /// Reports the progress of the stream to those that have never answered. Those that have taken all need
     /// not answer.
     fn remind(&self, robot: &mut Robot<'_>, outgoing: &Outgoing) {
-        let receivers = outgoing.receivers.iter();
-        let have_all = receivers.filter(|(_, receiver)| receiver.taken.next() == outgoing.next());
-        let known = have_all.map(|(&peer, _)| peer).take(MOST_KNOWN).collect();
+        let next_of = |peer| {
+            outgoing
+                .receivers
+                .read(peer, |receiver| receiver.taken.next())
+        };
+        let mut known = outgoing.receivers.numbers();
+        known.retain(|&peer| next_of(peer) == Some(outgoing.next()));
+        known.truncate(MOST_KNOWN);
         let head = Head {
             known,
             ..Head::of(self.destination())
@@ -175,11 +180,11 @@ impl Line {
     ) -> Option<Time> {
         let now = robot.now();
         let first_timeout = self.options.first_timeout;
-        let mut receiver = outgoing.receivers.remove(&peer)?;
+        let mut receiver = outgoing.receivers.take(peer)?;
         if outgoing.first_pending(&receiver).is_none() {
             receiver.trying = Trying::default();
             receiver.resent.clear();
-            outgoing.receivers.insert(peer, receiver);
+            outgoing.receivers.put(peer, receiver);
             return None;
         }
         // A robot that answers would have had messages sent one timeout ago, or well before those
@@ -203,7 +208,7 @@ impl Line {
             };
         }
         let due = receiver.trying.due;
-        outgoing.receivers.insert(peer, receiver);
+        outgoing.receivers.put(peer, receiver);
         due
     }
 
@@ -218,15 +223,15 @@ impl Line {
     pub fn give_up(&self, robot: &Robot<'_>, outgoing: &mut Outgoing, notices: &mut Notices) {
         let number = outgoing.base();
         let has_taken = |peer: &RobotId| {
-            let receiver = outgoing.receivers.get(peer);
-            receiver.is_some_and(|receiver| receiver.taken.contains(number))
+            let receivers = &outgoing.receivers;
+            receivers.read(*peer, |receiver| receiver.taken.contains(number))
         };
-        let is_meant = |peer: &RobotId| !self.is_local || outgoing.receivers.contains_key(peer);
+        let is_meant = |peer: &RobotId| !self.is_local || has_taken(peer).is_some();
         let unreached: Vec<RobotId> = match self.to {
             Some(to) => alloc::vec![to],
             None => robot
                 .peers()
-                .filter(|peer| is_meant(peer) && !has_taken(peer))
+                .filter(|peer| is_meant(peer) && has_taken(peer) != Some(true))
                 .collect(),
         };
         let message = self.name(number);
@@ -244,8 +249,8 @@ impl Line {
         let Some((number, message)) = outgoing.first() else {
             return false;
         };
-        let mut receivers = outgoing.receivers.values();
-        let is_held = receivers.any(|receiver| receiver.held.contains(number));
+        let mut receivers = outgoing.receivers.busy();
+        let is_held = receivers.any(|(_, receiver)| receiver.held.contains(number));
         now >= message.sent + self.options.patience(is_held)
     }
 
@@ -267,9 +272,8 @@ impl Line {
         if wake <= now {
             wake = now + self.options.first_timeout;
         }
-        let receivers: Vec<RobotId> = outgoing.receivers.keys().copied().collect();
-        for peer in receivers {
-            let Some(mut receiver) = outgoing.receivers.remove(&peer) else {
+        for peer in outgoing.receivers.numbers() {
+            let Some(mut receiver) = outgoing.receivers.take(peer) else {
                 continue;
             };
             if let Some(pending) = outgoing.first_pending(&receiver) {
@@ -282,7 +286,7 @@ impl Line {
                 let due = self.try_again(robot, outgoing, (peer, &mut receiver), notices);
                 wake = wake.min(due);
             }
-            outgoing.receivers.insert(peer, receiver);
+            outgoing.receivers.put(peer, receiver);
         }
         if outgoing.receivers.len() < self.receivers(robot) {
             let mut trying = outgoing.strangers;

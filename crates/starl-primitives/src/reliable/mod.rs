@@ -23,6 +23,7 @@ mod notice;
 mod options;
 mod outgoing;
 mod packet;
+mod peers;
 mod receiving;
 mod runs;
 mod sending;
@@ -32,10 +33,12 @@ pub use options::Options;
 
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 use inbox::Inbox;
 use line::Line;
 use outgoing::Outgoing;
 use packet::{Packet, Stream};
+use peers::Peers;
 use receiving::Progress;
 use starl_core::{Input, Payload, Port, Robot, RobotId, Time, message, timers};
 
@@ -63,7 +66,10 @@ pub struct Reliable {
     multicast: Outgoing,
     /// The messages of this robot to each robot.
     direct: BTreeMap<RobotId, Outgoing>,
-    inboxes: BTreeMap<(RobotId, Stream), Inbox>,
+    /// The senders, by [`Stream`].
+    inboxes: [Peers<Inbox>; 2],
+    /// When senders were last answered, where a next answer would still have to wait for that; in their order.
+    answered: Vec<((RobotId, Stream), Time)>,
     /// When receivers are tried again.
     resend_at: Option<Time>,
     /// When senders are answered.
@@ -80,7 +86,8 @@ impl Reliable {
             incarnation: Incarnation::default(),
             multicast: Outgoing::default(),
             direct: BTreeMap::new(),
-            inboxes: BTreeMap::new(),
+            inboxes: Default::default(),
+            answered: Vec::new(),
             resend_at: None,
             answer_at: None,
         }

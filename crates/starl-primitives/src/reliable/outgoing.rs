@@ -3,7 +3,9 @@
 //! Invariant: the first message that is kept waits for some receiver, if there is any. A receiver that never spoke
 //! has no entry, and nothing is known to be taken by it.
 
+use super::peers::{Peers, Rest};
 use super::runs::Runs;
+use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, VecDeque};
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -16,7 +18,7 @@ pub(super) struct Outgoing {
     base: u32,
     messages: VecDeque<Message>,
     /// The receivers that have answered.
-    pub receivers: BTreeMap<RobotId, Receiver>,
+    pub receivers: Peers<Receiver>,
     /// The retransmissions to those that have not.
     pub strangers: Trying,
 }
@@ -24,7 +26,7 @@ pub(super) struct Outgoing {
 /// A message on its way.
 #[derive(Clone, Debug)]
 pub(super) struct Message {
-    pub content: Payload,
+    pub content: Box<[u8]>,
     pub sent: Time,
     /// How many receivers have not taken it.
     waiting: u32,
@@ -59,7 +61,7 @@ impl Default for Outgoing {
         Outgoing {
             base: 1,
             messages: VecDeque::new(),
-            receivers: BTreeMap::new(),
+            receivers: Peers::default(),
             strangers: Trying::default(),
         }
     }
@@ -73,6 +75,27 @@ impl Default for Receiver {
             token: None,
             resent: BTreeMap::new(),
             trying: Trying::default(),
+        }
+    }
+}
+
+impl Rest for Receiver {
+    /// The number of the next message.
+    type Resting = u32;
+
+    fn at_rest(&self) -> Option<u32> {
+        let holds_none = self.held.next() == 1 && self.held.ahead().is_empty();
+        let is_tried =
+            self.trying.attempt > 0 || self.trying.due.is_some() || !self.resent.is_empty();
+        let is_at_rest =
+            holds_none && !is_tried && self.token.is_none() && self.taken.ahead().is_empty();
+        is_at_rest.then(|| self.taken.next())
+    }
+
+    fn woken(next: u32) -> Receiver {
+        Receiver {
+            taken: Runs::before(next),
+            ..Receiver::default()
         }
     }
 }
@@ -130,7 +153,7 @@ impl Outgoing {
     pub fn push(&mut self, content: Payload, sent: Time, waiting: u32) -> u32 {
         let number = self.next();
         self.messages.push_back(Message {
-            content,
+            content: content.into_boxed_slice(),
             sent,
             waiting,
         });
@@ -187,7 +210,7 @@ impl Outgoing {
         are_taken: bool,
     ) -> Credit {
         let mut credit = Credit::default();
-        let mut receiver = self.receivers.remove(&from).unwrap_or_default();
+        let mut receiver = self.receivers.take(from).unwrap_or_default();
         let next = self.next();
         let (mut taken, mut held) = (Vec::new(), Runs::before(1));
         let first = receiver.taken.next().max(self.base);
@@ -220,7 +243,7 @@ impl Outgoing {
         receiver.taken.fill_to(before.min(next).max(self.base));
         receiver.held = held;
         receiver.token = None;
-        self.receivers.insert(from, receiver);
+        self.receivers.put(from, receiver);
         self.drop_settled();
         credit
     }
@@ -232,10 +255,10 @@ impl Outgoing {
         }
         if self.messages.is_empty() {
             self.strangers = Trying::default();
-            for receiver in self.receivers.values_mut() {
+            self.receivers.change_busy(|receiver| {
                 receiver.trying = Trying::default();
                 receiver.resent.clear();
-            }
+            });
         }
     }
 }

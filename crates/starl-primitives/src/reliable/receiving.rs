@@ -2,6 +2,7 @@
 
 use super::inbox::{Arrived, Owed};
 use super::packet::{Packet, Stream};
+use super::peers::trim;
 use super::{Alarm, Arrival, Notice, Notices, Reliable};
 use alloc::vec::Vec;
 use starl_core::{Destination, Duration, Payload, Robot, RobotId, Time, TimerKey};
@@ -43,7 +44,8 @@ impl Reliable {
         }
         let mut notices = Notices::new();
         let window = self.options.window;
-        let inbox = self.inboxes.entry((from, stream)).or_default();
+        let inboxes = &mut self.inboxes[stream as usize];
+        let mut inbox = inboxes.take(from).unwrap_or_default();
         let is_answer = token.is_some_and(|token| inbox.begin(incarnation, token, base));
         let mut arrived = Arrived::new();
         inbox.owed = match inbox.lives.of(incarnation) {
@@ -62,6 +64,7 @@ impl Reliable {
                 }
             }
         };
+        inboxes.put(from, inbox);
         notices.extend(arrived.into_iter().map(|(number, content)| {
             Notice::Arrived(Arrival {
                 from,
@@ -87,10 +90,12 @@ impl Reliable {
     /// Asks a robot which of its messages to all may still come. The answer, if it arrives, is a [`Notice::Settled`]
     /// with the returned ticket.
     pub fn ask(&mut self, robot: &mut Robot<'_>, peer: RobotId) -> u32 {
-        let inbox = self.inboxes.entry((peer, Stream::Multicast)).or_default();
+        let inboxes = &mut self.inboxes[Stream::Multicast as usize];
+        let mut inbox = inboxes.take(peer).unwrap_or_default();
         inbox.lives.renew_token();
         inbox.owed = Owed::Greeting;
         let token = inbox.lives.token(robot);
+        inboxes.put(peer, inbox);
         self.answer(robot, (peer, Stream::Multicast));
         token
     }
@@ -99,54 +104,71 @@ impl Reliable {
     /// stands for everything that comes meanwhile.
     fn answer_soon(&mut self, robot: &mut Robot<'_>, sender: (RobotId, Stream)) {
         let now = robot.now();
-        let Some(inbox) = self.inboxes.get(&sender) else {
-            return;
-        };
-        match self.options.answer_time(inbox.answered, now) {
+        match self.options.answer_time(self.last_answer(sender), now) {
             at if at <= now => self.answer(robot, sender),
             at => self.wake_to_answer(robot, at),
         }
     }
 
     fn answer(&mut self, robot: &mut Robot<'_>, (from, stream): (RobotId, Stream)) {
-        let Some(inbox) = self.inboxes.get_mut(&(from, stream)) else {
+        self.note_answer(robot.now(), (from, stream));
+        let inboxes = &mut self.inboxes[stream as usize];
+        let Some(mut inbox) = inboxes.take(from) else {
             return;
         };
-        inbox.answered = Some(robot.now());
         let packet = match (core::mem::take(&mut inbox.owed), &inbox.lives.heard) {
-            (Owed::Nothing, _) => return,
+            (Owed::Nothing, _) => None,
             (Owed::Taken, Some((incarnation, sequence))) => {
                 let (before, ahead) = sequence.report(MOST_RUNS);
-                Packet::<Payload>::Taken {
+                Some(Packet::<Payload>::Taken {
                     incarnation: *incarnation,
                     stream,
                     before,
                     ahead,
-                }
+                })
             }
             (Owed::Taken | Owed::Greeting, _) => {
                 let token = inbox.lives.token(robot);
-                Packet::Greet { stream, token }
+                Some(Packet::Greet { stream, token })
             }
         };
-        robot.transmit(Destination::Robot(from), self.port, &packet);
+        inboxes.put(from, inbox);
+        if let Some(packet) = packet {
+            robot.transmit(Destination::Robot(from), self.port, &packet);
+        }
+    }
+
+    fn last_answer(&self, sender: (RobotId, Stream)) -> Option<Time> {
+        let found = self.answered.binary_search_by_key(&sender, |entry| entry.0);
+        found.ok().map(|at| self.answered[at].1)
+    }
+
+    /// Notes that a sender is answered, and forgets answers that nothing has to wait for any more.
+    fn note_answer(&mut self, now: Time, sender: (RobotId, Stream)) {
+        let is_late = |(other, at): &(_, Time)| {
+            *other != sender && self.options.answer_time(Some(*at), *at) > now
+        };
+        self.answered.retain(is_late);
+        trim(&mut self.answered);
+        let (Ok(at) | Err(at)) = self.answered.binary_search_by_key(&sender, |entry| entry.0);
+        self.answered.insert(at, (sender, now));
     }
 
     /// Sends due acknowledgements.
     pub(super) fn answer_due(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.answer_at = None;
-        let owing = self.inboxes.iter();
-        let owing = owing.filter(|(_, inbox)| inbox.owed != Owed::Nothing);
-        let owing = owing.map(|(&sender, inbox)| {
-            let at = self.options.answer_time(inbox.answered, now);
-            (sender, at)
-        });
-        let owing: Vec<((RobotId, Stream), Time)> = owing.collect();
-        for (sender, at) in owing {
-            match at <= now {
-                true => self.answer(robot, sender),
-                false => self.wake_to_answer(robot, at),
+        let mut owing = Vec::new();
+        for stream in [Stream::Multicast, Stream::Direct] {
+            let busy = self.inboxes[stream as usize].busy();
+            let busy = busy.filter(|(_, inbox)| inbox.owed != Owed::Nothing);
+            owing.extend(busy.map(|(from, _)| (from, stream)));
+        }
+        owing.sort_unstable();
+        for sender in owing {
+            match self.options.answer_time(self.last_answer(sender), now) {
+                at if at <= now => self.answer(robot, sender),
+                at => self.wake_to_answer(robot, at),
             }
         }
     }

@@ -89,7 +89,7 @@ impl Reliable {
         let line = self.line(incarnation, to);
         let now = robot.now();
         let outgoing = self.outgoing_mut(to);
-        let mut receiver = outgoing.receivers.remove(&from).unwrap_or_default();
+        let mut receiver = outgoing.receivers.take(from).unwrap_or_default();
         // A life that does not know this one holds nothing of it.
         receiver.held = super::runs::Runs::before(1);
         receiver.token = Some(token);
@@ -97,7 +97,7 @@ impl Reliable {
         line.bring_up(robot, outgoing, &mut receiver, (from, CHUNK), &mut notices);
         let due = now + line.stretched(robot, 0);
         receiver.trying.due.get_or_insert(due);
-        outgoing.receivers.insert(from, receiver);
+        outgoing.receivers.put(from, receiver);
         if !self.is_idle() {
             self.wake_to_resend(robot, due);
         }
@@ -109,7 +109,7 @@ impl Reliable {
         let soon = robot.now() + self.options.first_timeout;
         let direct = self.direct.get_mut(&peer);
         let all = core::iter::once(&mut self.multicast).chain(direct);
-        let receivers = all.filter_map(|outgoing| outgoing.receivers.get_mut(&peer));
+        let receivers = all.filter_map(|outgoing| outgoing.receivers.busy_mut(peer));
         let mut is_tried = false;
         for receiver in receivers {
             if receiver.trying.due.is_some_and(|due| due > soon) {

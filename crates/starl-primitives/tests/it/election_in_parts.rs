@@ -5,6 +5,7 @@ use crate::harness::elector::{ALGORITHMS, Elector, agreed, by, election, judge, 
 use crate::harness::{Wire, World};
 use starl_core::Duration;
 use starl_primitives::election::Algorithm;
+use std::collections::BTreeSet;
 
 const SECOND: Duration = Duration::from_seconds(1);
 const ALL: [usize; 5] = [0, 1, 2, 3, 4];
@@ -141,5 +142,22 @@ fn links_that_carry_one_way_only_do_no_harm() {
                 judge(&world, &[]);
             }
         }
+    }
+}
+
+#[test]
+fn of_two_leaders_by_ballots_all_follow_the_greater_one_though_their_words_cross() {
+    for seed in 0..60 {
+        let make = Elector::eager(by(Algorithm::Ballots));
+        let mut world = World::new(5, seed, Wire::delayed(100), None, make);
+        world.run_for(SECOND * 10);
+        let leader = agreed(&world, &ALL).expect("a leader") as usize;
+        part(&mut world, &[leader]);
+        world.run_for(SECOND * 20);
+        let shown: BTreeSet<u32> = leaders(&world, &ALL).into_iter().flatten().collect();
+        assert_eq!(shown.len(), 2, "seed {seed}");
+        world.wire.cut.clear();
+        world.run_for(SECOND * 2);
+        assert!(agreed(&world, &ALL).is_some(), "seed {seed}");
     }
 }

@@ -40,6 +40,7 @@ mod mutex_quorums;
 mod mutex_recovers_from_corruption;
 mod mutex_requests_keep_their_turn;
 mod mutex_under_contention;
+mod peers_at_rest_are_remembered;
 mod reach_avoid_drives_in_lanes;
 mod reach_avoid_flags;
 mod reach_avoid_follows_points;

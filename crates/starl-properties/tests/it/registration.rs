@@ -195,3 +195,19 @@ fn the_time_in_which_all_agreed_does_not_count() {
     agree(&mut story, 6000, (6000, 0, &[0, 1]));
     assert_eq!(properties(&story), [""; 0]);
 }
+
+#[test]
+fn a_list_that_names_an_earlier_life_of_a_robot_excludes_nothing() {
+    let mut story = robots(2);
+    agree(&mut story, 400, (400, 0, &[0, 1]));
+    story.fault(1000, Some(0), "crash");
+    story.fault(1100, Some(0), "restart");
+    registers(&mut story, 1200, 0);
+    let next = (1400, 0, &[0, 1][..]);
+    (0..2).for_each(|robot| accepts(&mut story, 1400, robot, next));
+    shows(&mut story, 1450, 0, next);
+    // It hears late that all had accepted the list before.
+    shows(&mut story, 1500, 1, (400, 0, &[0, 1]));
+    shows(&mut story, 1600, 1, next);
+    assert_eq!(properties(&story), [""; 0]);
+}

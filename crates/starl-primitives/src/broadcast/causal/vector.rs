@@ -214,3 +214,21 @@ impl Vector {
         all.filter_map(|known| known.present.as_mut())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_ends_no_life_that_was_heard_of_after_the_question() {
+        let robot = RobotId(1);
+        let life = |incarnation| Process { robot, incarnation };
+        let mut vector = Vector::default();
+        vector.pass_over(life(5), 3, 10);
+        vector.pass_over(life(6), 4, 20);
+        vector.forget_unheard(robot, 15);
+        assert!(matches!(vector.standing(life(5)), Standing::Over(3)));
+        let later = vector.standing(life(6));
+        assert!(matches!(later, Standing::Unknown(Some(4))), "{later:?}");
+    }
+}

@@ -7,7 +7,7 @@
 use super::followers::Leading;
 use super::life::Life;
 use super::packet::What;
-use super::{CHUNK, Role, Total};
+use super::{CHUNK, Member, Role, Total};
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use starl_core::event::BroadcastEvent;
@@ -128,21 +128,9 @@ impl Total {
     /// Sees what is decided.
     fn decide(&mut self, robot: &mut Robot<'_>) {
         let life = self.life(robot);
-        let Some(member) = &mut self.member else {
-            return;
-        };
-        let Role::Leading(leading) = &member.role else {
-            return;
-        };
-        let matched = |voter: &Life| match leading.followers.get(&voter.robot) {
-            _ if *voter == life => member.log.last(),
-            Some(follower) if follower.life == *voter => follower.matched,
-            _ => 0,
-        };
-        let mut matches: Vec<u64> = member.log.voters().iter().map(matched).collect();
-        matches.sort_unstable_by(|a, b| b.cmp(a));
-        let decided = matches.get(member.needed() - 1).copied().unwrap_or(0);
-        if decided > member.commit && member.log.term(decided) == Some(member.term) {
+        if let Some(member) = &mut self.member
+            && let Some(decided) = member.decided(life)
+        {
             member.commit = decided;
             self.apply(robot);
         }
@@ -178,5 +166,125 @@ impl Total {
             leading.past.rotate_left(1);
             leading.past[3] = (member.commit, leading.round);
         }
+    }
+}
+
+impl Member {
+    /// The last entry that is decided by what the followers of this leader have; none if nothing more is decided.
+    fn decided(&self, me: Life) -> Option<u64> {
+        let Role::Leading(leading) = &self.role else {
+            return None;
+        };
+        let matched = |voter: &Life| match leading.followers.get(&voter.robot) {
+            _ if *voter == me => self.log.last(),
+            Some(follower) if follower.life == *voter => follower.matched,
+            _ => 0,
+        };
+        let mut matches: Vec<u64> = self.log.voters().iter().map(matched).collect();
+        matches.sort_unstable_by(|a, b| b.cmp(a));
+        let decided = matches.get(self.needed() - 1).copied().unwrap_or(0);
+        (decided > self.commit && self.log.term(decided) == Some(self.term)).then_some(decided)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::packet::{Entry, Generation};
+    use super::super::roll::Roll;
+    use super::*;
+    use crate::broadcast::total::followers::Follower;
+    use starl_core::RobotId;
+
+    /// A life of a robot.
+    fn life(robot: u32, start: u64) -> Life {
+        Life::of_test(RobotId(robot), start)
+    }
+
+    /// A leader in term 2 of these many voters, with an entry of term 1 that is not decided.
+    fn leader(voters: u32) -> Member {
+        let voters: Vec<(Life, u32)> = (0..voters).map(|robot| (life(robot, 1), 0)).collect();
+        let generation = Generation {
+            counter: 1,
+            founder: life(0, 1),
+        };
+        let quorum = voters.len() as u32 / 2 + 1;
+        let roll = Roll::new(voters);
+        let mut member = Member::at(generation, quorum, (0, 1), roll.clone());
+        let what = What::Start;
+        member.log.push(Entry { term: 1, what });
+        member.term = 2;
+        member.leader = Some(life(0, 1));
+        member.role = Role::Leading(Leading {
+            age: 0,
+            start: 2,
+            sent: 1,
+            told: 0,
+            past: [(0, 0); 4],
+            round: 0,
+            calls: 0,
+            followers: BTreeMap::new(),
+            roll,
+        });
+        member
+    }
+
+    /// A follower has the log up to here.
+    fn has(member: &mut Member, life: Life, matched: u64) {
+        let Role::Leading(leading) = &mut member.role else {
+            panic!("it leads");
+        };
+        let mut follower = Follower::new(life);
+        follower.matched = matched;
+        leading.followers.insert(life.robot, follower);
+    }
+
+    #[test]
+    fn an_entry_of_an_earlier_term_is_decided_only_with_one_of_the_leaders_term() {
+        let mut member = leader(3);
+        has(&mut member, life(1, 1), 1);
+        has(&mut member, life(2, 1), 1);
+        assert_eq!(member.decided(life(0, 1)), None);
+        member.put(What::Start);
+        assert_eq!(member.decided(life(0, 1)), None, "no other robot has it");
+        has(&mut member, life(1, 1), 2);
+        assert_eq!(member.decided(life(0, 1)), Some(2));
+    }
+
+    #[test]
+    fn the_log_of_a_new_life_does_not_count_for_the_life_that_votes() {
+        let mut member = leader(3);
+        member.put(What::Start);
+        has(&mut member, life(1, 2), 2);
+        assert_eq!(member.decided(life(0, 1)), None);
+        has(&mut member, life(1, 1), 2);
+        assert_eq!(member.decided(life(0, 1)), Some(2));
+    }
+
+    #[test]
+    fn voters_change_only_after_an_entry_of_the_leaders_term_is_decided() {
+        let mut member = leader(5);
+        member.put(What::Start);
+        has(&mut member, life(1, 2), 2);
+        member.commit = 1;
+        member.admit();
+        assert_eq!(member.log.last(), 2, "its own entry is not decided");
+        member.commit = 2;
+        member.admit();
+        assert_eq!(member.log.last(), 3);
+        assert_eq!(member.log.voters().len(), 4);
+    }
+
+    #[test]
+    fn voters_change_only_after_the_last_change_is_decided() {
+        let mut member = leader(5);
+        member.put(What::Start);
+        has(&mut member, life(1, 2), 2);
+        member.commit = 2;
+        member.admit();
+        member.admit();
+        assert_eq!(member.log.last(), 3, "the last change is not decided");
+        member.commit = 3;
+        member.admit();
+        assert_eq!(member.log.voters().len(), 5, "the new life votes");
     }
 }

@@ -24,6 +24,13 @@ pub(super) struct LifeName {
 }
 
 impl Life {
+    /// A life of a test, named by its start.
+    #[cfg(test)]
+    pub fn of_test(robot: RobotId, start: u64) -> Life {
+        let name = LifeName { start, count: 0 };
+        Life { robot, name }
+    }
+
     /// The incarnation whose messages it sends.
     pub fn incarnation(&self) -> u32 {
         self.name.start as u32

@@ -23,6 +23,7 @@ use crate::election::rules::Scene;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::event::ElectionEvent;
+use starl_core::random::hash_key;
 use starl_core::{Duration, Random, RobotId, Time};
 
 /// How far a robot is.
@@ -45,7 +46,8 @@ pub(super) enum Stage {
 pub(super) struct Learning {
     /// When the robot began.
     begun: Time,
-    /// Answers are collected for the time of a lease. Those collected before then count no more.
+    /// Answers are collected for the time of a lease. Those collected before then count no more, nor do those to
+    /// questions of an earlier life: each life counts from a number that is made of the time.
     attempt: u32,
     until: Time,
     answers: BTreeMap<RobotId, Answer>,
@@ -84,7 +86,8 @@ impl Leases {
                 self.up_since = now;
             }
             Stage::Waiting(begun) if now >= *begun + lease => {
-                let (begun, attempt) = (*begun, 0);
+                // Another number than in earlier lives, whose answers may still come.
+                let (begun, attempt) = (*begun, hash_key(begun.0, &[]) as u32);
                 self.collect(scene, begun, attempt);
             }
             Stage::Learning(learning) if now >= learning.until => {
