@@ -172,7 +172,7 @@ impl Agreement {
             let joined = self.joined.get(&(key.port, *robot));
             self.health.well_from(*robot) <= sent && joined.is_some_and(|&at| at <= sent)
         };
-        if self.may_lack_voters() {
+        if self.may_lack_voters(|robot| with_sender(&robot)) {
             excused.note(AGREEMENT, Excuse::NoMajority);
             return Vec::new();
         }
@@ -183,10 +183,16 @@ impl Agreement {
         near.into_iter().filter(has_been).collect()
     }
 
-    /// Whether a robot is down without which the voters may be too few to decide: others have restarted, and vote
-    /// again only when there is a leader.
-    fn may_lack_voters(&self) -> bool {
+    /// Whether the robots that are down or apart leave too few voters to decide: others have restarted, and vote again
+    /// only when a leader has let them in.
+    fn may_lack_voters(&self, with_sender: impl Fn(RobotId) -> bool) -> bool {
+        let is_away = |robot: &RobotId| self.down.contains(robot) || !with_sender(*robot);
+        let mut lost: BTreeSet<RobotId> = (0..self.robots).map(RobotId).filter(is_away).collect();
+        if lost.is_empty() {
+            return false;
+        }
         let quorum = self.robots as usize / 2 + 1;
-        !self.down.is_empty() && self.crashed.len() > self.robots as usize - quorum
+        lost.extend(&self.crashed);
+        lost.len() > self.robots as usize - quorum
     }
 }

@@ -326,6 +326,28 @@ fn a_robot_that_is_down_excuses_only_where_others_have_crashed_too() {
 }
 
 #[test]
+fn a_robot_that_is_apart_excuses_only_where_another_has_crashed() {
+    let cut = |crashed: &[u32]| {
+        let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+        for &robot in crashed {
+            story.fault(2000, Some(robot), "crash");
+            story.fault(2100, Some(robot), "restart");
+        }
+        story.fault(2200, None, "partition");
+        story.sends(2300, 0, 1, 1);
+        story.sends(2400, 1, 0, 1);
+        sends(&mut story, 40_000, 0, 2, "total");
+        story
+    };
+    let property = "broadcast.agreement";
+    assert_only(&cut(&[]).verdict(90_000), property, 45_000, &[0, 0, 1]);
+    assert_none(&cut(&[1]).verdict(90_000));
+    let excused = cut(&[1]).excused(90_000, property);
+    let reasons: Vec<Excuse> = excused.into_iter().map(|(excuse, _)| excuse).collect();
+    assert!(reasons.contains(&Excuse::NoMajority), "{reasons:?}");
+}
+
+#[test]
 fn a_corruption_excuses_for_a_while() {
     let mut story = answer();
     story.fault(1250, Some(2), "corrupt state");
