@@ -81,7 +81,7 @@ impl Limits {
 /// A kind of robot with its parameters: immutable, shared by all robots of the kind.
 ///
 /// A host advances a robot in two halves: [`Model::predict`] computes its state after a step; the host checks for
-/// contacts; [`Model::update`] sets that state, or stops the body at its contact.
+/// contacts; [`Model::stop_at`] stops the body at its contact.
 pub trait Model: Debug + Send + Sync {
     /// The name used in scenarios, e.g. `create`.
     fn name(&self) -> &'static str;
