@@ -240,11 +240,15 @@ impl Checker {
     }
 }
 
+/// The digits of a literal, and its unit.
+pub(super) fn split_unit(text: &str) -> (&str, &str) {
+    let digits = text.trim_end_matches(|last: char| last.is_ascii_alphabetic());
+    text.split_at(digits.len())
+}
+
 /// The dimension of a literal with this text, by its unit.
 fn unit_of(text: &str) -> Option<Dimension> {
-    let text = text.trim_start_matches(['-', ' ']);
-    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.' || c == '_');
-    match unit {
+    match split_unit(text).1 {
         "mm" | "cm" | "m" | "km" => Some(Dimension::Length),
         "deg" | "rad" => Some(Dimension::Angle),
         _ => None,

@@ -4,6 +4,7 @@ use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 
+use super::dimension::split_unit;
 use super::report::{around, broken};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Fix, Span};
@@ -121,9 +122,8 @@ impl Checker {
                     ExpressionKind::Int(_) | ExpressionKind::Float(_)
                 ) =>
             {
-                let text = self.text(span);
-                let digits = text.trim_end_matches(|last: char| last.is_ascii_alphabetic());
-                let (what, unit) = match &text[digits.len()..] {
+                let (digits, unit) = split_unit(self.text(span));
+                let (what, unit) = match unit {
                     "" => ("a time without a unit", "s"),
                     "deg" | "rad" => ("an angle, not a time", ""),
                     "m" => ("a length, not a time", "min"),
