@@ -51,7 +51,7 @@ impl EmulatedCrazyflie {
         }));
         let service = {
             let (socket, inside) = (socket.clone(), inside.clone());
-            Service::start(move || turn(&socket, &mut lock(&inside)))
+            Service::start(move || turn(&socket, &inside))
         };
         Ok(EmulatedCrazyflie {
             socket,
@@ -88,27 +88,34 @@ impl Drop for EmulatedCrazyflie {
     }
 }
 
-fn turn(socket: &UdpSocket, inside: &mut Inside) -> io::Result<()> {
+fn turn(socket: &UdpSocket, inside: &Mutex<Inside>) -> io::Result<()> {
     let mut buffer = [0; 64];
-    match socket.recv_from(&mut buffer) {
-        Ok((length, from)) => {
-            inside.client = Some(from);
-            for packet in inside.desk.answer(&buffer[..length], &mut inside.flight) {
-                let _ = socket.send_to(&packet, from);
-            }
-        }
+    // Nothing is locked while it waits, or others would wait for seconds: whoever unlocks first locks again.
+    let received = match socket.recv_from(&mut buffer) {
+        Ok(received) => Some(received),
         Err(error) => match error.kind() {
             ErrorKind::WouldBlock
             | ErrorKind::TimedOut
             | ErrorKind::Interrupted
             | ErrorKind::ConnectionReset
-            | ErrorKind::ConnectionRefused => {}
+            | ErrorKind::ConnectionRefused => None,
             _ => return Err(error),
         },
+    };
+    let Inside {
+        flight,
+        desk,
+        client,
+    } = &mut *lock(inside);
+    let mut packets = Vec::new();
+    if let Some((length, from)) = received {
+        *client = Some(from);
+        packets = desk.answer(&buffer[..length], flight);
     }
-    inside.flight.tick();
-    if let Some(client) = inside.client {
-        for packet in inside.desk.due(&inside.flight) {
+    flight.tick();
+    packets.extend(desk.due(flight));
+    if let Some(client) = *client {
+        for packet in packets {
             // A client that is gone no longer takes part.
             let _ = socket.send_to(&packet, client);
         }
