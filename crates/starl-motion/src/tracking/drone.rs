@@ -7,7 +7,7 @@
 //! while the drone accelerates and brakes, which would make it overshoot. The drone's own speed loop
 //! controls the vertical motion. The thesis names such a controller (section 4.3) but gives none.
 
-use super::{Goal, Tracking};
+use super::{Goal, Moment, Tracking};
 use starl_core::math::{self, atan, exp, sincos, tan};
 use starl_core::motion::Estimate;
 use starl_core::{Command, Point, Pose};
@@ -41,10 +41,13 @@ const VELOCITY_GAIN: f64 = 2.8;
 /// Both poles of the observer, 1/s, where estimates are seldom. A quicker one strays less in gusts, but gaps between estimates
 /// make it overshoot.
 const SLOWEST_OBSERVER: f64 = 2.5;
-/// The same where they are frequent; noise moves a drone by a tenth more then.
-const QUICKEST_OBSERVER: f64 = 8.0;
-/// The time between estimates up to which they are frequent, seconds; at twice that they are seldom.
+/// The same where they are frequent. A quicker one strays less still, until noise of the velocity moves the drone.
+const QUICKEST_OBSERVER: f64 = 12.0;
+/// The time between estimates up to which they are frequent, seconds; at 1.7 times that they are seldom.
 const FREQUENT: f64 = 0.05;
+/// Where estimates are frequent, the push is extrapolated by this time, seconds, at the rate at which it changes: so long
+/// the drone takes to notice it and to tilt.
+const LEAD: f64 = 0.3;
 /// The push is taken to be at most this many times what the drone can hold against.
 const MOST_PUSH: f64 = 1.5;
 /// Seconds for which the push has to exceed what the drone can hold against until it counts as overpowered:
@@ -115,10 +118,10 @@ impl Gains {
         }
         tracking.phase = FLYING;
 
-        self.observe(tracking, estimate, period);
+        let push = self.observe(tracking, estimate, period);
         let desired = self.desired_velocity(position, goal);
         let error = (desired - estimate.twist.linear).at_height(0.0);
-        let acceleration = error * VELOCITY_GAIN + desired * self.drag - tracking.push;
+        let acceleration = error * VELOCITY_GAIN + desired * self.drag - push;
         let (sin, cos) = sincos(yaw);
         let tilt = shortened(acceleration, self.strength()) / self.gravity;
         let (ahead, aside) = (cos * tilt.x + sin * tilt.y, sin * tilt.x - cos * tilt.y);
@@ -139,28 +142,37 @@ impl Gains {
         let period = tracking.period(estimate);
         match estimate.pose.position.z < 0.5 * self.lowest {
             true => tracking.interrupt(),
-            false => self.observe(tracking, estimate, period),
+            false => drop(self.observe(tracking, estimate, period)),
         }
     }
 
-    /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to.
-    fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) {
+    /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to. Returns the push
+    /// to compensate: the one that is expected when the drone has tilted.
+    fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) -> Point {
         let velocity = estimate.twist.linear.at_height(0.0);
-        let expected = tracking.expected_velocity.unwrap_or(velocity);
-        let often = FREQUENT / period;
-        let rate = (QUICKEST_OBSERVER * often * often).clamp(SLOWEST_OBSERVER, QUICKEST_OBSERVER);
+        let own = self.own_acceleration(estimate);
+        let expected = match tracking.last {
+            Some(last) => {
+                last.velocity + ((last.acceleration + own) * 0.5 + tracking.push) * period
+            }
+            None => velocity,
+        };
+        let often = (FREQUENT / period).min(1.0);
+        let rate = (QUICKEST_OBSERVER * often * often * often).max(SLOWEST_OBSERVER);
         let keep = exp(-rate * period);
         let surprise = velocity - expected;
-        let push = tracking.push + surprise * ((1.0 - keep) * (1.0 - keep) / period);
-        tracking.push = shortened(push, MOST_PUSH * self.strength());
+        let change = surprise * ((1.0 - keep) * (1.0 - keep) / period);
+        tracking.push = shortened(tracking.push + change, MOST_PUSH * self.strength());
         let holds = tracking.push.planar_length() <= self.strength();
         tracking.overpowered = match holds {
             true => 0.0,
             false => tracking.overpowered + period,
         };
-        let acceleration = self.own_acceleration(estimate) + tracking.push;
-        let corrected = expected + surprise * (1.0 - keep * keep);
-        tracking.expected_velocity = Some(corrected + acceleration * period);
+        tracking.last = Some(Moment {
+            velocity: expected + surprise * (1.0 - keep * keep),
+            acceleration: own,
+        });
+        tracking.push + change * (LEAD * often / period)
     }
 
     fn desired_velocity(&self, position: Point, goal: &Goal) -> Point {
