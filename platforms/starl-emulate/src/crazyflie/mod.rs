@@ -90,7 +90,7 @@ impl Drop for EmulatedCrazyflie {
 
 fn turn(socket: &UdpSocket, inside: &Mutex<Inside>) -> io::Result<()> {
     let mut buffer = [0; 64];
-    // Nothing is locked while it waits, or others would wait for seconds: whoever unlocks first locks again.
+    // Nothing is locked while it waits: it would lock again at once, and others would wait for seconds.
     let received = match socket.recv_from(&mut buffer) {
         Ok(received) => Some(received),
         Err(error) => match error.kind() {
