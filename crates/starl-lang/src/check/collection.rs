@@ -5,7 +5,6 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::report::{broken, made};
-use super::shape::is_ordered;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{
@@ -222,7 +221,7 @@ impl Checker {
     /// The key by which a list is sorted, of a type that `<` compares.
     fn sorting_key(&mut self, node: ast::Expression) -> Expression {
         let key = self.value(Some(node), None, "the key");
-        if is_ordered(&key.ty) {
+        if self.program.is_ordered(&key.ty) {
             return key;
         }
         let problem = Diagnostic::new(Code::WrongType, key.span, "`by` cannot sort by this");

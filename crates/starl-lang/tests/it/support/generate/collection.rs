@@ -124,7 +124,8 @@ impl Generator<'_> {
 
     /// ` by key`
     fn sorting(&mut self, depth: u32) -> String {
-        let ordered = [Type::Int, Type::Float, Type::String, Type::Duration];
+        let pair = Type::Tuple(vec![Type::Float, Type::String]);
+        let ordered = [Type::Int, Type::Float, Type::String, Type::Duration, pair];
         let key = &ordered[self.choices.below(ordered.len())];
         let key = self.expression(key, Context::Unknown, depth).at(power::OR);
         format!(" by {key}")
@@ -167,7 +168,7 @@ impl Generator<'_> {
         if self.choices.below(8) == 7 {
             return "_".into();
         }
-        self.add_local(ty, false)
+        self.pattern(ty, false)
     }
 
     pub(super) fn optional(&mut self, inner: &Type, context: Context, depth: u32) -> Text {

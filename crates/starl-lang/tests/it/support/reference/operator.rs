@@ -1,6 +1,6 @@
 //! Operators, as the language says.
 
-use super::value::{Value, equal, order};
+use super::value::{Value, comparison, equal};
 use super::{Outcome, Stop};
 use starl_core::{Point, math};
 use starl_lang::ir::Operator;
@@ -15,10 +15,7 @@ pub fn apply(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
         Equal => Value::Bool(equal(&left, &right, false).ok_or(unknown)?),
         NotEqual => Value::Bool(!equal(&left, &right, false).ok_or(unknown)?),
         Less | LessEqual | Greater | GreaterEqual => {
-            let found = match (&left, &right) {
-                (Value::Float(left), Value::Float(right)) => left.partial_cmp(right),
-                _ => Some(order(&left, &right)),
-            };
+            let found = comparison(&left, &right);
             Value::Bool(match operator {
                 Less => found == Some(Ordering::Less),
                 LessEqual => matches!(found, Some(Ordering::Less | Ordering::Equal)),
