@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use super::report::{broken, made};
 use super::state::Checker;
+use super::tables::Builtin;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{
     Comprehension, Element, Expression, ExpressionKind, LoopVariables, RobotMember, Type,
@@ -216,6 +217,41 @@ impl Checker {
             ty,
             span,
         )
+    }
+
+    /// `min(x for x in xs by key)` or `max(...)`
+    pub fn best(
+        &mut self,
+        builtin: Builtin,
+        argument: &ast::Argument,
+        clause: &ast::ComprehensionClause,
+        span: Span,
+    ) -> Expression {
+        let made_list = self.comprehension(clause, span, |checker| {
+            let element = checker.value(argument.value(), None, "an element");
+            (Type::list(element.ty.clone()), Element::One(element))
+        });
+        let (ExpressionKind::Comprehension(comprehension), Type::List(element)) =
+            (made_list.kind, made_list.ty)
+        else {
+            return broken(span);
+        };
+        if let (None, Element::One(value)) = (&comprehension.key, &comprehension.element)
+            && !self.program.is_ordered(&element)
+        {
+            let message = format!("`{}` does not compare these", builtin.name());
+            let problem = Diagnostic::new(Code::WrongType, value.span, message);
+            let found = self.name_of(&element);
+            let problem = problem.expected("what `<` compares").found(found);
+            self.report(problem.note("give a key to compare: `x for x in xs by key`"));
+            return broken(span);
+        }
+        let is_greatest = builtin == Builtin::Max;
+        let kind = ExpressionKind::Best {
+            comprehension,
+            is_greatest,
+        };
+        made(kind, Type::optional(*element), span)
     }
 
     /// The key by which a list is sorted, of a type that `<` compares.

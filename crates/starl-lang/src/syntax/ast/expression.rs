@@ -5,8 +5,8 @@ use alloc::string::String;
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
 use super::node::{after, before, child, children, choice, nodes, token, tokens};
 use super::{
-    AstNode, BinaryOperator, BraceExpression, ListExpression, LiteralExpression, LoopVariables,
-    Name, Pattern, PrefixOperator,
+    AstNode, BinaryOperator, BraceExpression, ComprehensionClause, ListExpression,
+    LiteralExpression, LoopVariables, Name, Pattern, PrefixOperator,
 };
 
 nodes! {
@@ -176,6 +176,14 @@ impl Argument {
     /// Its value.
     #[must_use]
     pub fn value(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl Argument {
+    /// The clause of a comprehension, of which the value is an element.
+    #[must_use]
+    pub fn comprehension(&self) -> Option<ComprehensionClause> {
         child(&self.0)
     }
 }

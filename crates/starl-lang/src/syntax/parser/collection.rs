@@ -17,6 +17,9 @@ pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
             parser.bump();
         }
         height = height.max(expression_parsed(parser).height);
+        if parser.at(ForKeyword) {
+            height = height.max(comprehension(parser));
+        }
         parser.finish();
     });
     parser.finish();

@@ -27,6 +27,11 @@ pub fn apply(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
     })
 }
 
+/// All NaN are one, because processors differ in the sign of the NaN they produce.
+pub fn settled(number: f64) -> f64 {
+    if number.is_nan() { f64::NAN } else { number }
+}
+
 fn arithmetic(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
     use Operator::{Add, Divide, Multiply, Subtract};
     use Value::{Duration, Float, Int, List, Text, Time};
@@ -67,6 +72,7 @@ fn arithmetic(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
 }
 
 fn point(a: Point, b: Point, each: impl Fn(f64, f64) -> f64) -> Value {
+    let each = |a, b| settled(each(a, b));
     Value::Point(Point::new(each(a.x, b.x), each(a.y, b.y), each(a.z, b.z)))
 }
 
@@ -84,12 +90,12 @@ fn integers(operator: Operator, left: i64, right: i64) -> Outcome<i64> {
 }
 
 fn floats(operator: Operator, left: f64, right: f64) -> f64 {
-    match operator {
+    settled(match operator {
         Operator::Add => left + right,
         Operator::Subtract => left - right,
         Operator::Multiply => left * right,
         _ => left / right,
-    }
+    })
 }
 
 fn sum(left: u64, right: u64) -> Outcome<u64> {
