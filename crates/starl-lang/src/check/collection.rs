@@ -321,6 +321,9 @@ impl Checker {
         self.report(match base.ty {
             Type::Optional(_) => problem.note("it may be none; test it with `if some x = ...`"),
             Type::Set(_) => problem.note("a set has no indices; test with `in`"),
+            Type::Record(id) if self.program[id].is_tuple() => {
+                problem.note("the parts of a tuple are `.0`, `.1` and so on")
+            }
             _ => problem.note("it applies to lists and maps"),
         });
     }
