@@ -127,7 +127,7 @@ impl Reader<'_> {
             Type::Point => "a point [x, y] or [x, y, z], metres".into(),
             Type::Enum(number) => format!("one of {}", self.variants(*number).join(", ")),
             Type::Optional(kind) => self.expected(kind),
-            Type::Record(_) => "nothing: a scenario cannot set records".into(),
+            Type::Record(_) => "nothing: a scenario cannot set records or tuples".into(),
             Type::Object(number) => match self.object(*number) {
                 Some(ObjectType::Text) => "a text that is not a quantity".into(),
                 Some(ObjectType::List(element) | ObjectType::Set(element)) => {

@@ -142,6 +142,10 @@ impl Checker {
         let mut surplus = None;
         let mut is_doubled = false;
         for argument in arguments {
+            if argument.comprehension().is_some() {
+                self.misplaced_comprehension(argument);
+                return Arranged { values, rest };
+            }
             let Some(value) = argument.value() else {
                 continue;
             };

@@ -5,7 +5,6 @@ use alloc::format;
 use super::fit::{number_of, same};
 use super::operator::joined;
 use super::report::{around, broken};
-use super::shape::is_ordered;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
@@ -49,7 +48,7 @@ impl Checker {
         let (l, r) = (self.name_of(&left.ty), self.name_of(&right.ty));
         for side in [left, right] {
             if let Type::Optional(inner) = &side.ty
-                && (result(operator, inner, inner).is_some() || is_ordered(inner))
+                && (result(operator, inner, inner).is_some() || self.program.is_ordered(inner))
             {
                 let message = format!("an operand of `{sign}` may be none");
                 let problem = Diagnostic::new(Code::MayBeNone, side.span, message);

@@ -66,7 +66,11 @@ impl Checker {
                     span: name.span,
                 },
             };
-            let bindings = checker.body.names.iter().map(|(_, local)| *local).collect();
+            let bound = checker.body.names.iter();
+            let mut bindings: Vec<LocalId> = bound
+                .map(|(_, local)| checker.body.part(*local).map_or(*local, |(whole, _)| whole))
+                .collect();
+            bindings.dedup();
             checker.body.place = Where::Effect;
             let effect = checker.block(node.eff().and_then(|eff| eff.body()));
             checker.check_touched();

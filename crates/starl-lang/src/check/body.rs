@@ -67,6 +67,8 @@ pub(super) struct Body {
     unread: Vec<Unread>,
     /// The locals that cannot be assigned to, with the phrase for messages.
     pub fixed: Vec<Option<&'static str>>,
+    /// For each local that is a part of another one: that, a tuple, and the number of the part.
+    parts: Vec<Option<(LocalId, u32)>>,
     /// The locals that can be seen, the innermost last.
     pub names: Vec<(String, LocalId)>,
     /// The type of the result of a function.
@@ -106,7 +108,25 @@ impl Body {
         });
         self.fixed.push(None);
         self.dimensions.push(None);
+        self.parts.push(None);
         id
+    }
+
+    /// Adds a local without a name, a tuple whose parts have names.
+    pub fn add_whole(&mut self, ty: Type, span: Span) -> LocalId {
+        let id = self.add(String::new(), ty, span, None);
+        self.names.pop();
+        id
+    }
+
+    /// Makes a local a part of another one.
+    pub fn set_part(&mut self, local: LocalId, whole: LocalId, part: u32) {
+        self.parts[local.index()] = Some((whole, part));
+    }
+
+    /// The tuple that the local is a part of, with the number of the part.
+    pub fn part(&self, local: LocalId) -> Option<(LocalId, u32)> {
+        self.parts[local.index()]
     }
 
     /// Notes that a local is read.

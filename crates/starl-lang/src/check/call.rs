@@ -6,7 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::arguments::Parameters;
-use super::report::{article, broken, made};
+use super::report::{around, article, broken, made};
 use super::resolution::Symbol;
 use super::scope::Entity;
 use super::shape::Letters;
@@ -20,6 +20,20 @@ impl Checker {
     /// A call.
     pub fn call(&mut self, node: &ast::CallExpression, span: Span) -> Expression {
         let arguments: Vec<ast::Argument> = node.arguments().collect();
+        if let Some((argument, clause)) =
+            (arguments.iter()).find_map(|argument| Some((argument, argument.comprehension()?)))
+        {
+            let builtin = match (node.callee(), &arguments[..]) {
+                (Some(ast::Expression::Name(name)), [_]) if argument.name().is_none() => {
+                    self.extreme(&name)
+                }
+                _ => None,
+            };
+            return match builtin {
+                Some(builtin) => self.best(builtin, argument, &clause, span),
+                None => self.misplaced_comprehension(argument),
+            };
+        }
         match node.callee() {
             Some(ast::Expression::Name(name)) => self.call_name(&name, &arguments, span),
             Some(ast::Expression::Field(field)) => self.call_member(&field, &arguments, span),
@@ -31,6 +45,27 @@ impl Checker {
             }
             None => broken(span),
         }
+    }
+
+    /// The built-in function `min` or `max` that a name stands for.
+    fn extreme(&mut self, name: &ast::NameExpression) -> Option<Builtin> {
+        let (text, at) = (name.text(), name.span());
+        let scope = &self.files[self.file as usize].scope;
+        let is_taken = self.body.find(&text).is_some() || scope.contains_key(&text);
+        let builtin = Builtin::named(&text).filter(|_| !is_taken)?;
+        matches!(builtin, Builtin::Min | Builtin::Max).then(|| {
+            self.resolve(at, Symbol::Builtin(builtin));
+            builtin
+        })
+    }
+
+    /// Reports a comprehension among the arguments of something that takes none.
+    pub fn misplaced_comprehension(&mut self, argument: &ast::Argument) -> Expression {
+        let span = argument.span();
+        let message = "only `min` and `max`, without other arguments, take elements like this";
+        let problem = Diagnostic::new(Code::Misplaced, span, message);
+        self.report(problem.fix(around("put it in brackets: a list", span, "[", "]")));
+        broken(span)
     }
 
     fn call_name(

@@ -5,8 +5,8 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::report::{broken, made};
-use super::shape::is_ordered;
 use super::state::Checker;
+use super::tables::Builtin;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{
     Comprehension, Element, Expression, ExpressionKind, LoopVariables, RobotMember, Type,
@@ -219,10 +219,45 @@ impl Checker {
         )
     }
 
+    /// `min(x for x in xs by key)` or `max(...)`
+    pub fn best(
+        &mut self,
+        builtin: Builtin,
+        argument: &ast::Argument,
+        clause: &ast::ComprehensionClause,
+        span: Span,
+    ) -> Expression {
+        let made_list = self.comprehension(clause, span, |checker| {
+            let element = checker.value(argument.value(), None, "an element");
+            (Type::list(element.ty.clone()), Element::One(element))
+        });
+        let (ExpressionKind::Comprehension(comprehension), Type::List(element)) =
+            (made_list.kind, made_list.ty)
+        else {
+            return broken(span);
+        };
+        if let (None, Element::One(value)) = (&comprehension.key, &comprehension.element)
+            && !self.program.is_ordered(&element)
+        {
+            let message = format!("`{}` does not compare these", builtin.name());
+            let problem = Diagnostic::new(Code::WrongType, value.span, message);
+            let found = self.name_of(&element);
+            let problem = problem.expected("what `<` compares").found(found);
+            self.report(problem.note("give a key to compare: `x for x in xs by key`"));
+            return broken(span);
+        }
+        let is_greatest = builtin == Builtin::Max;
+        let kind = ExpressionKind::Best {
+            comprehension,
+            is_greatest,
+        };
+        made(kind, Type::optional(*element), span)
+    }
+
     /// The key by which a list is sorted, of a type that `<` compares.
     fn sorting_key(&mut self, node: ast::Expression) -> Expression {
         let key = self.value(Some(node), None, "the key");
-        if is_ordered(&key.ty) {
+        if self.program.is_ordered(&key.ty) {
             return key;
         }
         let problem = Diagnostic::new(Code::WrongType, key.span, "`by` cannot sort by this");
@@ -286,6 +321,9 @@ impl Checker {
         self.report(match base.ty {
             Type::Optional(_) => problem.note("it may be none; test it with `if some x = ...`"),
             Type::Set(_) => problem.note("a set has no indices; test with `in`"),
+            Type::Record(id) if self.program[id].is_tuple() => {
+                problem.note("the parts of a tuple are `.0`, `.1` and so on")
+            }
             _ => problem.note("it applies to lists and maps"),
         });
     }

@@ -5,7 +5,6 @@ use alloc::boxed::Box;
 use super::fit::same;
 use super::operator::joined;
 use super::report::made;
-use super::shape::is_ordered;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
@@ -101,7 +100,7 @@ impl Checker {
         if left.ty == Type::Error || right.ty == Type::Error {
             return broken_bool(span);
         }
-        if !same(&left.ty, &right.ty) || !is_ordered(&left.ty) {
+        if !same(&left.ty, &right.ty) || !self.program.is_ordered(&left.ty) {
             self.report_operator(operator, &left, &right, span);
             return broken_bool(span);
         }

@@ -3,14 +3,15 @@
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::ToString;
+use alloc::vec::Vec;
 
 use super::body::Where;
-use super::report::{broken, made};
+use super::report::{broken, counted, made};
 use super::scope::Entity;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, LocalId, Type};
-use crate::syntax::ast::{self, AstNode, Named};
+use crate::syntax::ast::{self, AstNode};
 
 impl Checker {
     /// `some x = optional`: the name is known from here on.
@@ -27,16 +28,75 @@ impl Checker {
                 value.ty.clone()
             }
         };
-        let Some(name) = node.name() else {
+        let Some(pattern) = node.pattern() else {
             return broken(span);
         };
-        let Some(local) = self.declare_local(&name, inner, Some(Code::UnusedLocal)) else {
+        let fixed = Some("the value of an optional");
+        let Some(local) = self.bind_pattern(&pattern, inner, Some(Code::UnusedLocal), fixed) else {
             let is_none = made(ExpressionKind::IsNone(Box::new(value)), Type::Bool, span);
             return made(ExpressionKind::Not(Box::new(is_none)), Type::Bool, span);
         };
-        self.body.fixed[local.index()] = Some("the value of an optional");
         let value = Box::new(value);
         made(ExpressionKind::Bind { local, value }, Type::Bool, span)
+    }
+
+    /// Declares a local, or the parts of a tuple as locals; none if nothing is named. `fixed` is what it is if it cannot
+    /// be assigned to.
+    pub fn bind_pattern(
+        &mut self,
+        pattern: &ast::Pattern,
+        ty: Type,
+        unread: Option<Code>,
+        fixed: Option<&'static str>,
+    ) -> Option<LocalId> {
+        let tuple = match pattern {
+            ast::Pattern::Name(name) => {
+                let local = self.declare_local(name, ty, unread)?;
+                self.body.fixed[local.index()] = fixed;
+                return Some(local);
+            }
+            ast::Pattern::Tuple(tuple) => tuple,
+        };
+        let names: Vec<ast::Name> = tuple.names().collect();
+        let parts = self.parts_of(&ty, names.len(), tuple.span());
+        let whole = self.body.add_whole(ty, tuple.span());
+        for (part, name) in names.iter().enumerate() {
+            let ty = parts.get(part).cloned().unwrap_or(Type::Error);
+            if let Some(local) = self.declare_local(name, ty, unread) {
+                self.body.fixed[local.index()] = fixed;
+                if !parts.is_empty() {
+                    self.body.set_part(local, whole, part as u32);
+                }
+            }
+        }
+        Some(whole)
+    }
+
+    /// The types of the parts of a tuple that gets `names` names; nothing if it is none, or if there are more or fewer.
+    fn parts_of(&mut self, ty: &Type, names: usize, span: Span) -> Vec<Type> {
+        let found = self.name_of(ty);
+        let problem = match ty {
+            Type::Error => return Vec::new(),
+            Type::Record(id) if self.program[*id].is_tuple() => {
+                let fields = self.program[*id].fields.iter();
+                let parts: Vec<Type> = fields.map(|field| field.ty.clone()).collect();
+                if parts.len() == names {
+                    return parts;
+                }
+                let (parts, names) = (counted(parts.len(), "part"), counted(names, "name"));
+                let message = format!("this tuple has {parts}, not {names}");
+                let problem = Diagnostic::new(Code::TupleParts, span, message);
+                problem.note("write `_` for a part without a name")
+            }
+            _ => {
+                let message = "only the parts of a tuple get names like these";
+                let problem = Diagnostic::new(Code::TupleParts, span, message);
+                let expected = format!("a tuple of {}", counted(names, "part"));
+                problem.expected(expected)
+            }
+        };
+        self.report(problem.found(found));
+        Vec::new()
     }
 
     /// Declares a local; none for `_`. `unread` is the warning if nothing reads it.
@@ -87,7 +147,7 @@ impl Checker {
     /// The names of a loop or a comprehension, and the types of their values.
     pub fn loop_variables(
         &mut self,
-        names: impl Iterator<Item = ast::Name>,
+        names: impl Iterator<Item = ast::Pattern>,
         collection: &Expression,
     ) -> crate::ir::LoopVariables {
         use crate::ir::LoopVariables;
@@ -119,10 +179,8 @@ impl Checker {
         LoopVariables::Two(first, self.loop_variable(&second, two))
     }
 
-    fn loop_variable(&mut self, name: &ast::Name, ty: Type) -> Option<LocalId> {
-        let local = self.declare_local(name, ty, None)?;
-        self.body.fixed[local.index()] = Some("a loop variable");
-        Some(local)
+    fn loop_variable(&mut self, name: &ast::Pattern, ty: Type) -> Option<LocalId> {
+        self.bind_pattern(name, ty, None, Some("a loop variable"))
     }
 
     /// Reports what cannot be run over.

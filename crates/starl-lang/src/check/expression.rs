@@ -2,6 +2,7 @@
 
 use alloc::boxed::Box;
 use alloc::format;
+use alloc::vec::Vec;
 
 use super::body::Where;
 use super::comparison::comparable;
@@ -50,6 +51,7 @@ impl Checker {
             }
             ast::Expression::Name(node) => self.name(&node.text(), span, expected),
             ast::Expression::Parenthesized(node) => self.infer(node.inner(), expected),
+            ast::Expression::Tuple(node) => self.tuple(&node, span, expected),
             ast::Expression::Field(node) => self.member(&node, span),
             ast::Expression::Call(node) => self.call(&node, span),
             ast::Expression::Index(node) => self.index(&node, span),
@@ -91,6 +93,7 @@ impl Checker {
             ast::Expression::Parenthesized(node) => {
                 node.inner().is_some_and(|inner| self.needs_hint(&inner))
             }
+            ast::Expression::Tuple(node) => node.parts().any(|part| self.needs_hint(&part)),
             ast::Expression::List(node) => {
                 node.comprehension().is_none()
                     && node.elements().all(|element| self.needs_hint(&element))
@@ -101,6 +104,38 @@ impl Checker {
                     && node.elements().all(|element| self.needs_hint(&element))
             }
             _ => false,
+        }
+    }
+
+    /// `(a, b)`
+    fn tuple(
+        &mut self,
+        node: &ast::TupleExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        let nodes: Vec<ast::Expression> = node.parts().collect();
+        let hints = match expected.map(comparable) {
+            Some(Type::Record(id)) if self.program[id].is_tuple() => {
+                let fields = self.program[id].fields.iter();
+                fields.map(|field| field.ty.clone()).collect()
+            }
+            _ => Vec::new(),
+        };
+        let fits = hints.len() == nodes.len();
+        let mut parts = Vec::new();
+        for (number, part) in nodes.into_iter().enumerate() {
+            let part = Some(part);
+            parts.push(match hints.get(number).filter(|_| fits) {
+                Some(ty) => self.expect(part, ty, &format!("the part `.{number}`")),
+                None => self.value(part, None, "a part of a tuple"),
+            });
+        }
+        let types = parts.iter().map(|part| part.ty.clone()).collect();
+        let ty = self.tuple_type(types, span);
+        match ty {
+            Type::Error => broken(span),
+            _ => made(ExpressionKind::Record(parts), ty, span),
         }
     }
 
@@ -309,7 +344,7 @@ impl Checker {
     ) -> Expression {
         let mark = self.body.enter();
         let collection = self.infer(node.collection(), None);
-        let variables = self.loop_variables(variables.names(), &collection);
+        let variables = self.loop_variables(variables.patterns(), &collection);
         let condition = self.expect(node.condition(), &Type::Bool, "the condition");
         self.body.leave(mark);
         let kind = ExpressionKind::Over {

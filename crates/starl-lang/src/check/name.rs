@@ -3,6 +3,7 @@
 //! A local hides everything. Then, where an enum is expected, its variants come first; then the declarations of the
 //! file, the variant of the only enum that has it, and the built-in names.
 
+use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -158,7 +159,12 @@ impl Checker {
     pub fn local_value(&mut self, local: crate::ir::LocalId, span: Span) -> Expression {
         self.body.read(local);
         let ty = self.body.locals[local.index()].ty.clone();
-        made(ExpressionKind::Local(local), ty, span)
+        let Some((whole, field)) = self.body.part(local) else {
+            return made(ExpressionKind::Local(local), ty, span);
+        };
+        let tuple = self.body.locals[whole.index()].ty.clone();
+        let base = Box::new(made(ExpressionKind::Local(whole), tuple, span));
+        made(ExpressionKind::Field { base, field }, ty, span)
     }
 
     fn builtin_name(&mut self, builtin: Builtin, span: Span) -> Expression {

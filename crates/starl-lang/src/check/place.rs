@@ -127,7 +127,12 @@ impl Checker {
             self.report(problem.note(format!("a copy can: `let copy = {name}`")));
             return no_place(span);
         }
-        place(Root::Local(local), ty, span)
+        let Some((whole, field)) = self.body.part(local) else {
+            return place(Root::Local(local), ty, span);
+        };
+        let mut place = place(Root::Local(whole), ty, span);
+        place.path.push(Step::Field(field));
+        place
     }
 
     /// Whether the state can be written here; reports it if not.
@@ -254,7 +259,7 @@ impl Checker {
                 let fields = &self.program[id].fields;
                 if let Some(number) = fields.iter().position(|field| field.name == name) {
                     let ty = fields[number].ty.clone();
-                    self.resolve(word.text_range().into(), Symbol::Field(id, number as u32));
+                    self.resolve_field(word.text_range().into(), id, number as u32);
                     return self.part(whole, Step::Field(number as u32), ty, span);
                 }
             }

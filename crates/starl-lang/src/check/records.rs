@@ -2,12 +2,13 @@
 
 use alloc::collections::BTreeSet;
 use alloc::format;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::collect::name_of;
 use super::state::{Checker, RecordNode};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::{RecordField, RecordId, Type};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Record, RecordField, RecordId, Type};
 use crate::syntax::ast;
 
 /// How deep records may be nested.
@@ -77,7 +78,8 @@ impl Checker {
             records_in(&self.program[id].fields[number].ty, &mut parts);
             for part in parts {
                 if way.contains(&part) || way.len() > DEEPEST {
-                    self.report_recursion(id, number, part, way.contains(&part));
+                    let circle = way.iter().position(|other| *other == part);
+                    self.report_recursion(id, number, circle.map(|start| &way[start..]));
                     self.program[id].fields[number].ty = Type::Error;
                     break;
                 }
@@ -96,7 +98,10 @@ impl Checker {
         let size = 1 + fields.map(|field| self.size(&field.ty)).sum::<u32>();
         if size > LARGEST {
             let site = self.program[id].site;
-            let message = format!("a `{}` has too many parts", self.program[id].name);
+            let message = match self.program[id].is_tuple() {
+                true => "this tuple has too many parts".into(),
+                false => format!("a `{}` has too many parts", self.program[id].name),
+            };
             self.file = site.file;
             let problem = Diagnostic::new(Code::TooLarge, site.span, message);
             let note = format!(
@@ -119,23 +124,56 @@ impl Checker {
         }
     }
 
-    pub fn report_recursion(
-        &mut self,
-        id: RecordId,
-        field: usize,
-        part: RecordId,
-        is_circle: bool,
-    ) {
+    pub fn report_recursion(&mut self, id: RecordId, field: usize, circle: Option<&[RecordId]>) {
         let (record, field) = (&self.program[id], &self.program[id].fields[field]);
         self.file = record.site.file;
-        let message = if is_circle {
-            format!("a `{}` contains itself", self.program[part].name)
-        } else {
-            "records are nested too deeply here".into()
+        let named = |id: &&RecordId| !self.program[**id].is_tuple();
+        let message = match circle.and_then(|circle| circle.iter().find(named)) {
+            Some(record) => format!("a `{}` contains itself", self.program[*record].name),
+            None => "records are nested too deeply here".into(),
         };
         let problem = Diagnostic::new(Code::RecursiveType, field.site.span, message);
         let note = "values have limited depth; refer to another one by its index or key";
         self.report(problem.note(note));
+    }
+}
+
+impl Checker {
+    /// The type of tuples with these parts, `span` being where it is first written.
+    pub fn tuple_type(&mut self, parts: Vec<Type>, span: Span) -> Type {
+        if parts.len() < 2 || parts.iter().any(Type::has_error) {
+            return Type::Error;
+        }
+        let id = match self.tuples.get(&parts) {
+            Some(known) => *known,
+            None => self.add_tuple(parts, span),
+        };
+        // One that is too large is reported, and has no parts.
+        match self.program[id].fields.is_empty() {
+            true => Type::Error,
+            false => Type::Record(id),
+        }
+    }
+
+    fn add_tuple(&mut self, parts: Vec<Type>, span: Span) -> RecordId {
+        let id = RecordId(self.program.records.len() as u32);
+        let site = self.site(span);
+        let fields = parts.iter().enumerate().map(|(number, ty)| RecordField {
+            name: number.to_string(),
+            ty: ty.clone(),
+            site,
+        });
+        self.program.records.push(Record {
+            name: String::new(),
+            is_message: false,
+            fields: fields.collect(),
+            site,
+            documentation: String::new(),
+        });
+        self.program.record_order.push(id);
+        self.tuples.insert(parts, id);
+        self.check_size(id);
+        id
     }
 }
 

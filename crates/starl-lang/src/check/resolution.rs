@@ -116,6 +116,13 @@ impl Checker {
         }
     }
 
+    /// The same for a field of a record; the part of a tuple is declared nowhere.
+    pub fn resolve_field(&mut self, span: Span, record: RecordId, field: u32) {
+        if !self.program[record].is_tuple() {
+            self.resolve(span, Symbol::Field(record, field));
+        }
+    }
+
     /// The same for a local of the present body.
     pub fn resolve_local(&mut self, span: Span, local: crate::ir::LocalId) {
         let site = self.site(self.body.locals[local.index()].span);

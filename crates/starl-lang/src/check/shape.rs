@@ -38,7 +38,7 @@ impl Checker {
                 Some(known) => super::fit::same(known, of),
                 None => {
                     letters.insert(*letter, of.clone());
-                    letter_allows(*letter, of)
+                    self.letter_allows(*letter, of)
                 }
             },
             (Shape::List(part), Type::List(of))
@@ -70,7 +70,7 @@ impl Checker {
         let part = |part: &Shape| self.shape_name(part, letters);
         match shape {
             Shape::Letter(b'N') => "Int or Float".into(),
-            Shape::Letter(b'M') => "Int, Float, Duration or Time".into(),
+            Shape::Letter(b'M') => "Int, Float, Duration, Time or a tuple that `<` compares".into(),
             Shape::Letter(b'F') => "Float or RobotId".into(),
             Shape::Letter(b'O') => "what `<` compares".into(),
             Shape::Message => "a message".into(),
@@ -81,28 +81,17 @@ impl Checker {
             _ => "a value".into(),
         }
     }
-}
 
-fn letter_allows(letter: u8, of: &Type) -> bool {
-    match letter {
-        b'N' => matches!(of, Type::Int | Type::Float),
-        b'M' => matches!(of, Type::Int | Type::Float | Type::Duration | Type::Time),
-        b'O' => is_ordered(of),
-        b'F' => matches!(of, Type::Float | Type::Robot),
-        _ => !matches!(of, Type::Nothing | Type::Range),
+    fn letter_allows(&self, letter: u8, of: &Type) -> bool {
+        match letter {
+            b'N' => matches!(of, Type::Int | Type::Float),
+            b'M' => match of {
+                Type::Record(_) => self.program.is_ordered(of),
+                _ => matches!(of, Type::Int | Type::Float | Type::Duration | Type::Time),
+            },
+            b'O' => self.program.is_ordered(of),
+            b'F' => matches!(of, Type::Float | Type::Robot),
+            _ => !matches!(of, Type::Nothing | Type::Range),
+        }
     }
-}
-
-/// Whether `<` compares values of the type.
-pub(super) fn is_ordered(of: &Type) -> bool {
-    matches!(
-        of,
-        Type::Int
-            | Type::Float
-            | Type::String
-            | Type::Time
-            | Type::Duration
-            | Type::Robot
-            | Type::Error
-    )
 }

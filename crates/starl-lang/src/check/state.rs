@@ -109,6 +109,8 @@ pub(super) struct Checker {
     pub dimensions: BTreeMap<Entity, Dimension>,
     /// Which enums have a variant with this name.
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
+    /// The tuples, by the types of their parts.
+    pub tuples: BTreeMap<Vec<Type>, RecordId>,
     /// Of how many parts the records are made.
     pub sizes: BTreeMap<RecordId, u32>,
     /// The evaluations of models with lists of known length.
@@ -148,6 +150,7 @@ impl Checker {
             keys: Vec::new(),
             dimensions: BTreeMap::new(),
             variants: BTreeMap::new(),
+            tuples: BTreeMap::new(),
             sizes: BTreeMap::new(),
             evaluations: Vec::new(),
             actions: BTreeSet::new(),

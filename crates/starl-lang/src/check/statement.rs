@@ -15,7 +15,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{
     Consistency, Expression, ExpressionKind, Root, SharedId, Statement, StatementKind, Type,
 };
-use crate::syntax::ast::{self, AssignOperator, AstNode, BinaryOperator, Named};
+use crate::syntax::ast::{self, AssignOperator, AstNode, BinaryOperator};
 
 impl Checker {
     /// The statements of a block, in a scope of their own.
@@ -77,8 +77,8 @@ impl Checker {
         };
         self.check_keys();
         let ty = value.ty.clone();
-        let name = node.name()?;
-        match self.declare_local(&name, ty, Some(Code::UnusedLocal)) {
+        let pattern = node.pattern()?;
+        match self.bind_pattern(&pattern, ty, Some(Code::UnusedLocal), None) {
             Some(local) => {
                 self.body.dimensions[local.index()] = self.dimension(&value);
                 Some(StatementKind::Let { local, value })

@@ -146,6 +146,10 @@ impl Checker {
                 }
                 Type::optional(inner)
             }
+            ast::Type::Tuple(tuple) => {
+                let parts = tuple.types().map(|part| self.written(&part)).collect();
+                self.tuple_type(parts, tuple.span())
+            }
             ast::Type::Enum(node) => {
                 let variants = self.variant_names(node.variants());
                 let site = self.site(super::collect::first_word(node.syntax()));
@@ -342,7 +346,7 @@ impl Checker {
         let name = super::report::article(&self.name_of(ty));
         let message = format!("{name} cannot be a key or an element of a set");
         let problem = Diagnostic::new(Code::InvalidKey, span, message);
-        let note = "keys are Bool, Int, String, RobotId, Time, Duration, Point, enums, and records of these";
+        let note = "keys are Bool, Int, String, RobotId, Time, Duration, Point, enums, and records and tuples of these";
         self.report(problem.note(note));
         false
     }

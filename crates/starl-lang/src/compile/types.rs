@@ -54,6 +54,8 @@ pub(super) struct Types<'p> {
     /// The enums.
     pub enums: Vec<Enum>,
     numbers: BTreeMap<EnumId, u16>,
+    /// The numbers of the types of objects that were asked for: a type may hold another one many times over.
+    known: BTreeMap<ir::Type, u16>,
 }
 
 impl<'p> Types<'p> {
@@ -65,6 +67,7 @@ impl<'p> Types<'p> {
             depths: Vec::new(),
             enums: Vec::new(),
             numbers: BTreeMap::new(),
+            known: BTreeMap::new(),
         };
         for id in &program.record_order {
             let fields = program[*id].fields.iter();
@@ -146,6 +149,9 @@ impl<'p> Types<'p> {
 
     /// The number of the type of an object.
     pub fn object(&mut self, of: &ir::Type) -> Result<u16, Unsuitable> {
+        if let Some(known) = self.known.get(of) {
+            return Ok(*known);
+        }
         let parts = match of {
             ir::Type::List(part) | ir::Type::Set(part) => self.size(part),
             ir::Type::Map(key, value) => self.size(key).plus(self.size(value)),
@@ -162,7 +168,9 @@ impl<'p> Types<'p> {
             ir::Type::Obstacles => ObjectType::Obstacles,
             _ => ObjectType::Text,
         };
-        self.add(object)
+        let number = self.add(object)?;
+        self.known.insert(of.clone(), number);
+        Ok(number)
     }
 
     fn add(&mut self, object: ObjectType) -> Result<u16, Unsuitable> {

@@ -103,6 +103,8 @@ codes! {
     ClauseOrder = "E0128",
     /// More text than a program may have.
     TooLong = "E0129",
+    /// A tuple of one part.
+    ShortTuple = "E0130",
     /// A name that nothing has.
     UnknownName = "E0201",
     /// A name that is declared twice.
@@ -205,6 +207,8 @@ codes! {
     InputField = "E0257",
     /// A model that cannot be used.
     UnusableModel = "E0258",
+    /// More or fewer names than the tuple has parts.
+    TupleParts = "E0259",
     /// More values at a time than the machine has registers.
     TooManyRegisters = "E0302",
     /// More of something than a compiled program can hold.

@@ -170,7 +170,7 @@ fn field(checked: &Checked, id: RecordId, number: u32) -> Description {
     };
     let ty = checked.program.type_name(&field.ty);
     let text = format!("{}.{}: {ty}", record.name, field.name);
-    let node = node_at(checked, field.site);
+    let node = node_at(checked, field.site).filter(|_| !record.is_tuple());
     let node = node.and_then(|node| node.ancestors().find_map(ast::Field::cast));
     Description::new(
         text,

@@ -101,6 +101,9 @@ fn definitions(checked: &Checked, define: &mut dyn FnMut(Site, Symbol)) {
     }
     for (number, record) in program.records.iter().enumerate() {
         let id = RecordId(number as u32);
+        if record.is_tuple() {
+            continue;
+        }
         define(record.site, Symbol::Record(id));
         for (number, field) in record.fields.iter().enumerate() {
             define(field.site, Symbol::Field(id, number as u32));

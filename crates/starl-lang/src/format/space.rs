@@ -13,6 +13,11 @@ pub(super) fn between(before: &Content, after: &Content) -> bool {
 }
 
 fn between_tokens(before: &SyntaxToken, after: &SyntaxToken) -> bool {
+    // A number and the part of a tuple would become another number.
+    let is_number = before.kind().is_number() && parent(before) == Some(LiteralExpression);
+    if is_number && after.kind() == Dot {
+        return true;
+    }
     !sticks_to_next(before) && !sticks_to_last(before.kind(), after)
 }
 

@@ -6,8 +6,15 @@ use alloc::vec::Vec;
 
 use super::{Program, Type};
 
+/// Tuples are written as far as this depth: one may hold lists of others over and over, and its whole name be endless.
+const DEEPEST: u32 = 8;
+
 pub(super) fn type_name(program: &Program, of: &Type) -> String {
-    let name = |part: &Type| type_name(program, part);
+    written(program, of, DEEPEST)
+}
+
+fn written(program: &Program, of: &Type, depth: u32) -> String {
+    let name = |part: &Type| written(program, part, depth);
     match of {
         Type::Error => "?".into(),
         Type::Bool => "Bool".into(),
@@ -26,7 +33,15 @@ pub(super) fn type_name(program: &Program, of: &Type) -> String {
                 .collect();
             format!("enum {{{}}}", variants.join(", "))
         }),
-        Type::Record(id) => program[*id].name.to_string(),
+        Type::Record(id) if !program[*id].is_tuple() => program[*id].name.to_string(),
+        Type::Record(_) if depth == 0 => "(...)".into(),
+        Type::Record(id) => {
+            let parts = program[*id].fields.iter();
+            let parts: Vec<String> = parts
+                .map(|part| written(program, &part.ty, depth - 1))
+                .collect();
+            format!("({})", parts.join(", "))
+        }
         Type::List(element) => format!("List[{}]", name(element)),
         Type::Set(element) => format!("Set[{}]", name(element)),
         Type::Map(key, value) => format!("Map[{}, {}]", name(key), name(value)),

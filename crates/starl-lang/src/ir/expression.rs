@@ -200,6 +200,14 @@ pub enum ExpressionKind {
     Map(Vec<(Expression, Expression)>),
     /// A comprehension.
     Comprehension(Box<Comprehension>),
+    /// `min(x for x in xs by key)` or `max`: the element of the least or the greatest key, the first of equal ones, as
+    /// an optional. Without a key the elements are compared themselves.
+    Best {
+        /// The elements, of a list.
+        comprehension: Box<Comprehension>,
+        /// Whether it is `max`.
+        is_greatest: bool,
+    },
     /// `forall` or `exists`, in properties: over all robots of the fleet.
     Quantifier {
         /// Whether it is `forall`.
@@ -240,7 +248,8 @@ pub struct Comprehension {
     pub collection: Expression,
     /// Which elements are taken, if not all.
     pub condition: Option<Expression>,
-    /// For a list: the key by which the elements are in ascending order; equal ones in the order of the source.
+    /// For a list: the key by which the elements are in ascending order; equal ones in the order of the source. For
+    /// `min` and `max`: what they compare.
     pub key: Option<Expression>,
 }
 

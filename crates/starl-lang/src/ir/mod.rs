@@ -113,6 +113,25 @@ impl Program {
         }
     }
 
+    /// Whether `<` compares values of the type.
+    #[must_use]
+    pub fn is_ordered(&self, of: &Type) -> bool {
+        match of {
+            Type::Int
+            | Type::Float
+            | Type::String
+            | Type::Time
+            | Type::Duration
+            | Type::Robot
+            | Type::Error => true,
+            Type::Record(record) if self[*record].is_tuple() => {
+                let mut fields = self[*record].fields.iter();
+                fields.all(|field| self.is_ordered(&field.ty))
+            }
+            _ => false,
+        }
+    }
+
     /// Whether values of the type can be keys of maps and elements of sets.
     #[must_use]
     pub fn is_key(&self, of: &Type) -> bool {

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use super::{EnumId, RecordId, Site};
 
 /// A type.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Type {
     /// The type of something with a reported error; it fits everywhere.
     Error,
@@ -33,7 +33,7 @@ pub enum Type {
     Obstacles,
     /// An enum.
     Enum(EnumId),
-    /// A record or a message.
+    /// A record, a message or a tuple.
     Record(RecordId),
     /// `List[T]`
     List(Box<Self>),
@@ -129,10 +129,11 @@ pub struct Variant {
     pub site: Site,
 }
 
-/// A record or a message.
+/// A record, a message or a tuple. Tuples with parts of the same types are one record, whose fields are called by their
+/// numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Record {
-    /// Its name.
+    /// Its name; empty for a tuple.
     pub name: String,
     /// Whether it is a message.
     pub is_message: bool,
@@ -142,6 +143,14 @@ pub struct Record {
     pub site: Site,
     /// The comments above it.
     pub documentation: String,
+}
+
+impl Record {
+    /// Whether it is a tuple.
+    #[must_use]
+    pub fn is_tuple(&self) -> bool {
+        self.name.is_empty()
+    }
 }
 
 /// A field of a record.

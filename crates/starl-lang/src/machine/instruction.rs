@@ -351,6 +351,8 @@ instructions! {
     ListInsert "list_insert" { list: ObjectInOut, index: In, scalars: Block, objects: ObjectBlock, kind: Type }
     /// Removes the element. A shift of what follows. Error: index.
     ListRemoveAt "list_remove_at" { list: ObjectInOut, index: In }
+    /// to = whether a value comes before another one in a sorted list of the type `kind`.
+    LessElement "less_element" { to: Out, scalars: Block, objects: ObjectBlock, other: Block, other_objects: ObjectBlock, kind: Type }
     /// to = an optional Int: the first index at which the block stands. A shift of the list.
     ListFind "list_find" { to: PairOut, list: ObjectIn, scalars: Block, objects: ObjectBlock, kind: Type }
     /// list = list, from. A share of `from`.

@@ -54,7 +54,7 @@ pub use program::{
     Parameter, Program, Property, Range, SourceFile, Span, Variable,
 };
 pub use text::{AssemblyError, assemble, disassemble};
-pub use types::{Layout, ObjectType, Order, Parts, Type};
+pub use types::{Layout, ObjectType, Order, Parts, Type, is_tuple};
 pub use value::list::{Block, List};
 pub use value::object::{Body, Map, Object};
 pub use value::state::State;

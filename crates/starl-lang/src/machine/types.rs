@@ -65,13 +65,20 @@ pub enum Order {
 }
 
 /// How a value lies in registers: its scalars, then its objects, both in the order of the text.
-/// Values are ordered by their scalars first, then by their objects.
+/// Values are ordered by their parts in the order of the text.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Layout {
     /// The order of each scalar.
     pub scalars: Vec<Order>,
     /// The type of each object.
     pub objects: Vec<u16>,
+    /// For each object how many scalars are before it in the text.
+    pub before: Vec<u16>,
+}
+
+/// Whether these are the fields of a tuple, which are called by their numbers.
+pub fn is_tuple<T>(fields: &[(String, T)]) -> bool {
+    fields.first().is_some_and(|(name, _)| name == "0")
 }
 
 impl Layout {
@@ -88,7 +95,10 @@ impl Layout {
         match part {
             Type::Float => self.scalars.push(Order::Float),
             Type::Point => self.scalars.extend([Order::Float; 3]),
-            Type::Object(index) => self.objects.push(*index),
+            Type::Object(index) => {
+                self.objects.push(*index);
+                self.before.push(self.scalars.len() as u16);
+            }
             Type::Optional(value) => {
                 self.scalars.push(Order::Integer);
                 self.push(value);

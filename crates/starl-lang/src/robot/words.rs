@@ -1,6 +1,6 @@
 //! Types in words.
 
-use crate::machine::{Bytecode, ObjectType, Type};
+use crate::machine::{Bytecode, ObjectType, Type, is_tuple};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -15,6 +15,10 @@ pub(super) fn type_name(bytecode: &Bytecode, kind: &Type) -> String {
             None => kind.to_string(),
         },
         Type::Optional(value) => format!("{}?", name(value)),
+        Type::Record(fields) if is_tuple(fields) => {
+            let parts: Vec<String> = fields.iter().map(|(_, kind)| name(kind)).collect();
+            format!("({})", parts.join(", "))
+        }
         Type::Record(fields) => {
             let fields = fields.iter();
             let fields: Vec<String> = fields

@@ -262,3 +262,11 @@ fn values_of_the_expected_type_come_first() {
     let found = labels("program P\na: Point\nb: Int\nc: Int\ngo()\n    eff let d = 3; b = $0\n");
     assert_eq!(found[..4], ["b", "c", "d", "a"]);
 }
+
+#[test]
+fn after_the_dot_of_a_tuple_its_parts() {
+    let lines = "        let (a, pair) = (1, (2.5, near))\n        log(\"{}\", a)\n        pair.$0";
+    assert_eq!(labels(&effect(lines)), ["0", "1"]);
+    let lines = "        let (first, second) = (1, (2.5, near))\n        log(\"{}\", $0)";
+    has(&labels(&effect(lines)), &["first", "second"]);
+}

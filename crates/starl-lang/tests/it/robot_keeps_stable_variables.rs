@@ -336,3 +336,21 @@ fn two_robots_differ_if_they_would_save_something_else() {
     assert_eq!(text(None), text(None));
     assert_ne!(text(None), text(Some(Saved::default())));
 }
+
+#[test]
+fn a_stable_tuple_survives_a_crash() {
+    let source = "
+program Pairs
+
+stable best: (Int, (String, RobotId?)) = (0, (\"\", none))
+
+tick()
+    pre best.0 < 3
+    eff best.0 += 1; best.1 = (\"at \" + String(best.0), me)
+";
+    let mut world = World::on_storage(&compile(source), Saved::default());
+    world.steps(5);
+    crash_and_restart(&mut world, source);
+    let best = world.get(0, "best").to_string();
+    assert_eq!(best, "(3, (\"at 3\", robot0))");
+}

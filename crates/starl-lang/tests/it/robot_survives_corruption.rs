@@ -11,7 +11,7 @@ program Everything
 
 enum Color {red, green, blue}
 record Pair {color: Color, name: String?}
-message All(flag: Bool, span: Duration, pairs: List[Pair], table: Map[Color, Set[Int]])
+message All(flag: Bool, span: Duration, pairs: List[Pair], table: Map[Color, Set[Int]], duo: (Color, (Int, String?)))
 
 param fixed: Int = 42
 
@@ -41,6 +41,10 @@ nested: List[List[List[List[Int]]]]
 pairs: List[Pair]
 table: Map[Color, Set[Int]]
 points: Set[Point]
+duo: (Color, (Int, String?))
+duos: Map[(Int, String), List[(Color, Float)]]
+allread paired[RobotId]: (Int, (Color, Point))
+allwrite pair_of_all: (Int, String) = (1, "")
 names: Map[String, Pair?]
 allread shown[RobotId]: Pair
 allwrite board: Int = 3
@@ -50,10 +54,13 @@ use()
     eff
         shown[me] = pair
         board = 1
-        radio.broadcast(All(flag, span, pairs, table))
+        radio.broadcast(All(flag, span, pairs, table, duo))
+        paired[me] = (count, (color, place))
+        pair_of_all = (count, name)
         motion.reach_avoid(place, stones)
         emit("state", pairs = pairs, table = table, nested = nested, span = span, moment = moment,
-            names = names, points = points, maybe = maybe, somewhere = somewhere)
+            names = names, points = points, maybe = maybe, somewhere = somewhere, duo = duo, duos = duos)
+        if some (_, text) = duos.keys().min() then log("{}", text)
         for shade, numbers in table
             for n in numbers
                 flag = n in numbers

@@ -137,7 +137,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    fn jump_if_different(
+    pub fn jump_if_different(
         &mut self,
         part: Part,
         [left, right]: [Slot; 2],

@@ -248,7 +248,7 @@ impl<'p> Body<'_, 'p> {
                     let size = self.size(&left.ty);
                     left.ty == Type::Point || size == Size::SCALAR || size == Size::OBJECT
                 }
-                _ => true,
+                _ => !matches!(left.ty, Type::Record(_)),
             },
             ExpressionKind::In { collection, .. } => collection.ty != Type::Range,
             ExpressionKind::Not(_)

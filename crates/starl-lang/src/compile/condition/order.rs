@@ -29,6 +29,16 @@ impl<'p> Body<'_, 'p> {
     ) -> Compiled {
         let target = label.target();
         match left.ty {
+            Type::Record(_) => {
+                let parts = self.parts(&left.ty)?;
+                let (left, right) = (self.value(left)?, self.value(right)?);
+                let sides = match operator {
+                    Operator::Less | Operator::LessEqual => [left, right],
+                    _ => [right, left],
+                };
+                let or_equal = matches!(operator, Operator::LessEqual | Operator::GreaterEqual);
+                return self.branch_parts_order(&parts, sides, or_equal, when, label);
+            }
             Type::String => {
                 let less = self.take(Size::SCALAR)?;
                 self.compare(operator, [left, right], less)?;
@@ -45,6 +55,51 @@ impl<'p> Body<'_, 'p> {
         let is_float = left.ty == Type::Float;
         let order = self.order(operator, [left, right])?;
         self.emit(jump(is_float, &order, when, target));
+        Ok(())
+    }
+
+    /// Goes to the label if the left tuple is less, or equal as well if `or_equal`, or if it is not: the first parts that
+    /// differ decide.
+    pub fn branch_parts_order(
+        &mut self,
+        parts: &[Part],
+        [left, right]: [Slot; 2],
+        or_equal: bool,
+        when: bool,
+        label: Label,
+    ) -> Compiled {
+        let end = self.label();
+        let (yes, no) = if when { (label, end) } else { (end, label) };
+        for part in parts {
+            let offset = Self::part_offset(*part);
+            let (l, r) = (left.at(offset), right.at(offset));
+            match part {
+                Part::Object(_, kind) => {
+                    let mark = self.mark();
+                    let less = self.take(Size::SCALAR)?;
+                    self.emit(Instruction::LessObject {
+                        to: less.output(),
+                        left: l.object_in(),
+                        right: r.object_in(),
+                        kind: operand::Type(*kind),
+                    });
+                    self.jump_on(less, true, yes);
+                    self.release(mark);
+                }
+                _ => {
+                    let order = Order {
+                        left: l.input(),
+                        right: r.input(),
+                        or_equal: false,
+                    };
+                    let is_float = matches!(part, Part::Float(_));
+                    self.emit(jump(is_float, &order, true, yes.target()));
+                }
+            }
+            self.jump_if_different(*part, [left, right], no)?;
+        }
+        self.jump(if or_equal { yes } else { no });
+        self.place(end);
         Ok(())
     }
 

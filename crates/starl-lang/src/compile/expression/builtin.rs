@@ -152,6 +152,9 @@ impl<'p> Body<'_, 'p> {
         to: Slot,
     ) -> Compiled {
         let first = self.given(arguments, 0)?;
+        if let Type::Record(_) = first.ty {
+            return self.extreme_tuple(builtin, arguments, to);
+        }
         let is_float = first.ty == Type::Float;
         let left = self.value(first)?;
         let (output, from) = (to.output(), left.input());
@@ -177,6 +180,39 @@ impl<'p> Body<'_, 'p> {
                 ));
             }
         }
+        Ok(())
+    }
+}
+
+impl<'p> Body<'_, 'p> {
+    /// `min`, `max` or `clamp` of tuples.
+    fn extreme_tuple(
+        &mut self,
+        builtin: Builtin,
+        arguments: &'p [Option<Expression>],
+        to: Slot,
+    ) -> Compiled {
+        let first = self.given(arguments, 0)?;
+        let (parts, size) = (self.parts(&first.ty)?, self.size(&first.ty));
+        let best = self.take(size)?;
+        self.into(first, best, true)?;
+        let others = arguments.iter().flatten().skip(1);
+        let others: Vec<Slot> = others
+            .map(|other| self.value(other))
+            .collect::<Compiled<_>>()?;
+        for (index, other) in others.into_iter().enumerate() {
+            let is_greater = builtin == Builtin::Max || builtin == Builtin::Clamp && index == 0;
+            let sides = if is_greater {
+                [best, other]
+            } else {
+                [other, best]
+            };
+            let keep = self.label();
+            self.branch_parts_order(&parts, sides, false, false, keep)?;
+            self.copy(best, other, size);
+            self.place(keep);
+        }
+        self.move_value(to, best, size);
         Ok(())
     }
 }

@@ -97,6 +97,78 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
+    /// `min(f(x) for x in xs if c by k)` or `max`: keeps the best element so far, so that no list is made.
+    pub fn best(
+        &mut self,
+        made: &'p Comprehension,
+        is_greatest: bool,
+        ty: &'p Type,
+        to: Slot,
+    ) -> Compiled {
+        let Element::One(element) = &made.element else {
+            return Err(self.broken());
+        };
+        let key = made.key.as_ref().unwrap_or(element);
+        let kind = self.object_type(&Type::list(key.ty.clone()))?;
+        let (size, key_size) = (self.size(&element.ty), self.size(&key.ty));
+        let is_found = self.take(Size::SCALAR)?;
+        self.scalar(is_found, 0);
+        let best = self.take(size)?;
+        self.zeros(best, &element.ty)?;
+        let best_key = match made.key {
+            Some(_) => {
+                let slot = self.take(key_size)?;
+                self.zeros(slot, &key.ty)?;
+                slot
+            }
+            None => best,
+        };
+        self.for_each(&made.collection, made.variables, false, |body| {
+            let (next, found) = (body.label(), body.label());
+            if let Some(condition) = &made.condition {
+                body.branch(condition, false, next)?;
+            }
+            let mark = body.mark();
+            let value = body.value(element)?;
+            let of_value = match &made.key {
+                Some(key) => body.value(key)?,
+                None => value,
+            };
+            body.jump_on(is_found, false, found);
+            let is_better = body.take(Size::SCALAR)?;
+            let (left, right) = match is_greatest {
+                true => (best_key, of_value),
+                false => (of_value, best_key),
+            };
+            body.emit(Instruction::LessElement {
+                to: is_better.output(),
+                scalars: left.block(),
+                objects: left.objects(),
+                other: right.block(),
+                other_objects: right.objects(),
+                kind,
+            });
+            body.jump_on(is_better, false, next);
+            body.place(found);
+            body.copy(best, value, size);
+            if made.key.is_some() {
+                body.copy(best_key, of_value, key_size);
+            }
+            body.scalar(is_found, 1);
+            body.release(mark);
+            body.place(next);
+            Ok(())
+        })?;
+        // An element that may be none itself is the value.
+        if element.ty == *ty {
+            self.move_value(to, best, size);
+            return Ok(());
+        }
+        self.copy(to, is_found, Size::SCALAR);
+        self.move_value(to.at(Size::SCALAR), best, size);
+        Ok(())
+    }
+
     /// The elements in the order of the source, and the list of their keys.
     fn collect(
         &mut self,

@@ -164,6 +164,10 @@ impl<'p> Body<'_, 'p> {
             ExpressionKind::Set(elements) => self.set(elements, ty, to),
             ExpressionKind::Map(entries) => self.map(entries, ty, to),
             ExpressionKind::Comprehension(made) => self.comprehension(made, ty, to),
+            ExpressionKind::Best {
+                comprehension,
+                is_greatest,
+            } => self.best(comprehension, *is_greatest, ty, to),
             ExpressionKind::OfRobot { robot, member } => {
                 self.of_robot(robot, *member, to, ty, is_fresh)
             }

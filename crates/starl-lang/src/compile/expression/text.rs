@@ -145,7 +145,9 @@ impl<'p> Body<'_, 'p> {
         let mut at = slot;
         let mut before = String::from("(");
         for field in &program[id].fields {
-            before += &format!("{} = ", field.name);
+            if !program[id].is_tuple() {
+                before += &format!("{} = ", field.name);
+            }
             self.append_piece(text, &before)?;
             self.append_part(text, at, &field.ty, true)?;
             at = at.at(self.size(&field.ty));

@@ -248,7 +248,7 @@ impl<'a> Candidates<'a> {
         let roles = program.roles.as_ref();
         let role_enum = roles.map(|roles| &program[roles.variable].ty);
         for (number, record) in program.records.iter().enumerate() {
-            if record.site.file == file {
+            if record.site.file == file && !record.is_tuple() {
                 self.symbol(Symbol::Record(RecordId(number as u32)), rank);
             }
         }

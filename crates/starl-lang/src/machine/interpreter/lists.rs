@@ -189,6 +189,22 @@ impl View<'_> {
         Ok(cost)
     }
 
+    pub fn less_element(
+        &mut self,
+        to: Out,
+        value: (Block, ObjectBlock),
+        other: (Block, ObjectBlock),
+        kind: Type,
+    ) -> Result<u64, Fault> {
+        let layout = &self.parts(kind)?.element;
+        let value = self.block(value.0, value.1, layout)?;
+        let other = self.block(other.0, other.1, layout)?;
+        let cost = shift(value.objects.iter().map(Object::bytes).sum());
+        let is_less = value.compare(other, layout, &self.program.parts).is_lt();
+        self.registers[to.place()] = u64::from(is_less);
+        Ok(cost)
+    }
+
     pub fn list_append(&mut self, list: ObjectInOut, from: ObjectIn) -> Result<u64, Fault> {
         let from = self.read(from)?.clone();
         let Some(added) = from.list() else {

@@ -105,6 +105,14 @@ impl View<'_> {
                 kind,
             } => self.list_insert(list, index, scalars, objects, kind),
             ListRemoveAt { list, index } => self.list_remove_at(list, index),
+            LessElement {
+                to,
+                scalars,
+                objects,
+                other,
+                other_objects,
+                kind,
+            } => self.less_element(to, (scalars, objects), (other, other_objects), kind),
             ListFind {
                 to,
                 list,

@@ -8,6 +8,7 @@ use crate::machine::types::{Layout, Order, Parts};
 use crate::machine::value::object::{Object, WORD};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
+use core::ops::Range;
 use serde::{Deserialize, Serialize};
 
 /// A row of blocks of scalars and objects.
@@ -343,21 +344,31 @@ impl List {
 impl Block<'_> {
     /// The order of two values of one layout.
     pub fn compare(self, other: Block<'_>, layout: &Layout, types: &[Parts]) -> Ordering {
-        let scalars = self.scalars.iter().zip(other.scalars).zip(&layout.scalars);
-        for ((&left, &right), order) in scalars {
-            let order = match order {
-                Order::Integer => (left as i64).cmp(&(right as i64)),
-                Order::Float => compare_floats(left, right),
-            };
+        let mut start = 0;
+        let objects = self.objects.iter().zip(other.objects);
+        let kinds = layout.objects.iter().zip(&layout.before);
+        for ((left, right), (&kind, &before)) in objects.zip(kinds) {
+            let before = usize::from(before);
+            let order = self
+                .compare_scalars(other, layout, start..before)
+                .then_with(|| left.compare(right, kind, types));
             if order.is_ne() {
                 return order;
             }
+            start = before;
         }
-        self.objects
-            .iter()
-            .zip(other.objects)
-            .zip(&layout.objects)
-            .map(|((left, right), &kind)| left.compare(right, kind, types))
+        self.compare_scalars(other, layout, start..layout.scalars.len())
+    }
+
+    fn compare_scalars(self, other: Block<'_>, layout: &Layout, range: Range<usize>) -> Ordering {
+        let scalars = self.scalars.iter().zip(other.scalars).zip(&layout.scalars);
+        let scalars = scalars.take(range.end).skip(range.start);
+        let orders = scalars.map(|((&left, &right), order)| match order {
+            Order::Integer => (left as i64).cmp(&(right as i64)),
+            Order::Float => compare_floats(left, right),
+        });
+        orders
+            .into_iter()
             .find(|order| order.is_ne())
             .unwrap_or(Ordering::Equal)
     }

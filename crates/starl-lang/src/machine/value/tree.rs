@@ -1,7 +1,7 @@
 //! Values as a tree with names, for hosts that show, record or send them.
 
 use crate::machine::program::Program;
-use crate::machine::types::{Layout, ObjectType, Type};
+use crate::machine::types::{Layout, ObjectType, Type, is_tuple};
 use crate::machine::value::list::List;
 use crate::machine::value::object::{Body, Map, Object};
 use alloc::boxed::Box;
@@ -304,6 +304,9 @@ impl fmt::Display for Value {
             Value::None => f.write_str("none"),
             Value::Some(value) => write!(f, "{value}"),
             Value::Text(text) => write!(f, "{text:?}"),
+            Value::Record(fields) if is_tuple(fields) => {
+                join(f, ["(", ")"], fields.iter(), |f, (_, v)| write!(f, "{v}"))
+            }
             Value::Record(fields) => {
                 let fields = fields.iter();
                 join(f, ["(", ")"], fields, |f, (name, value)| {

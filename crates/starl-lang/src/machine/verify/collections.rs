@@ -58,6 +58,18 @@ impl Context<'_> {
                 let parts = self.list_parts(kind.0)?;
                 self.reads_block(scalars.0, objects.0, &parts.element)
             }
+            LessElement {
+                scalars,
+                objects,
+                other,
+                other_objects,
+                kind,
+                ..
+            } => {
+                let parts = self.list_parts(kind.0)?;
+                self.reads_block(scalars.0, objects.0, &parts.element)?;
+                self.reads_block(other.0, other_objects.0, &parts.element)
+            }
             ListRemoveAt { list, .. } | ListReverse { list } | ListSlice { list, .. } => {
                 self.list_parts(self.object(list.0)?).map(|_| ())
             }

@@ -2,7 +2,7 @@
 
 use super::super::{SyntaxKind, SyntaxToken};
 use super::node::{after, before, child, children, nodes, token, word};
-use super::{Expression, LoopVariables, Name};
+use super::{Expression, LoopVariables, Pattern};
 
 nodes! {
     /// `[a, b]` or `[f(x) for x in xs if condition]`
@@ -68,10 +68,10 @@ impl MapEntry {
 
 impl ComprehensionClause {
     /// One variable, or two for a map.
-    pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
+    pub fn variables(&self) -> impl Iterator<Item = Pattern> + use<> {
         child::<LoopVariables>(&self.0)
             .into_iter()
-            .flat_map(|variables| variables.names())
+            .flat_map(|variables| variables.patterns())
     }
 
     /// The collection that it iterates over.

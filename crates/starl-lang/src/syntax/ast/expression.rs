@@ -5,8 +5,8 @@ use alloc::string::String;
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
 use super::node::{after, before, child, children, choice, nodes, token, tokens};
 use super::{
-    AstNode, BinaryOperator, BraceExpression, ListExpression, LiteralExpression, LoopVariables,
-    Name, PrefixOperator,
+    AstNode, BinaryOperator, BraceExpression, ComprehensionClause, ListExpression,
+    LiteralExpression, LoopVariables, Name, Pattern, PrefixOperator,
 };
 
 nodes! {
@@ -14,7 +14,9 @@ nodes! {
     NameExpression
     /// `(value)`
     ParenthesizedExpression
-    /// `value.field`
+    /// `(a, b)`
+    TupleExpression
+    /// `value.field` or `tuple.0`
     FieldExpression
     /// `function(arguments)`
     CallExpression
@@ -47,7 +49,9 @@ choice! {
         Name(NameExpression),
         /// `(value)`
         Parenthesized(ParenthesizedExpression),
-        /// `value.field`
+        /// `(a, b)`
+        Tuple(TupleExpression),
+        /// `value.field` or `tuple.0`
         Field(FieldExpression),
         /// `function(arguments)`
         Call(CallExpression),
@@ -125,6 +129,13 @@ impl ParenthesizedExpression {
     }
 }
 
+impl TupleExpression {
+    /// The parts.
+    pub fn parts(&self) -> impl Iterator<Item = Expression> + use<> {
+        children(&self.0)
+    }
+}
+
 impl FieldExpression {
     /// The value that has the field.
     #[must_use]
@@ -132,10 +143,11 @@ impl FieldExpression {
         child(&self.0)
     }
 
-    /// The name of the field.
+    /// The name of the field, or the number of the part.
     #[must_use]
     pub fn field(&self) -> Option<SyntaxToken> {
-        tokens(&self.0).find(|token| token.kind() == SyntaxKind::Identifier)
+        let is_field = |kind| matches!(kind, SyntaxKind::Identifier | SyntaxKind::IntegerLiteral);
+        tokens(&self.0).find(|token| is_field(token.kind()))
     }
 }
 
@@ -164,6 +176,14 @@ impl Argument {
     /// Its value.
     #[must_use]
     pub fn value(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl Argument {
+    /// The clause of a comprehension, of which the value is an element.
+    #[must_use]
+    pub fn comprehension(&self) -> Option<ComprehensionClause> {
         child(&self.0)
     }
 }
@@ -247,6 +267,12 @@ impl BinaryExpression {
 }
 
 impl SomeExpression {
+    /// The name for the value, or the names for its parts.
+    #[must_use]
+    pub fn pattern(&self) -> Option<Pattern> {
+        child(&self.0)
+    }
+
     /// The optional whose value gets the name.
     #[must_use]
     pub fn value(&self) -> Option<Expression> {

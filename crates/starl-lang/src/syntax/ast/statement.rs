@@ -21,6 +21,8 @@ nodes! {
     ForStatement
     /// `x` or `k, v`
     LoopVariables
+    /// `(a, b)`, names for the parts of a tuple
+    TuplePattern
     /// `return value`
     ReturnStatement
     /// A call
@@ -49,6 +51,23 @@ choice! {
     }
 }
 
+choice! {
+    /// Where a value gets a name, or its parts do.
+    Pattern {
+        /// `x`
+        Name(Name),
+        /// `(a, b)`
+        Tuple(TuplePattern),
+    }
+}
+
+impl TuplePattern {
+    /// The names.
+    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
+        children(&self.0)
+    }
+}
+
 impl Block {
     /// The statements.
     pub fn statements(&self) -> impl Iterator<Item = Statement> + use<> {
@@ -57,6 +76,12 @@ impl Block {
 }
 
 impl LetStatement {
+    /// The name of the variable, or the names of the parts of its value.
+    #[must_use]
+    pub fn pattern(&self) -> Option<Pattern> {
+        child(&self.0)
+    }
+
     /// The type of the variable, if that is written.
     #[must_use]
     pub fn ty(&self) -> Option<Type> {
@@ -133,10 +158,10 @@ impl ElseBranch {
 
 impl ForStatement {
     /// One variable, or two for a map.
-    pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
+    pub fn variables(&self) -> impl Iterator<Item = Pattern> + use<> {
         child::<LoopVariables>(&self.0)
             .into_iter()
-            .flat_map(|variables| variables.names())
+            .flat_map(|variables| variables.patterns())
     }
 
     /// The collection that it iterates over.
@@ -153,8 +178,8 @@ impl ForStatement {
 }
 
 impl LoopVariables {
-    /// The names.
-    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
+    /// The variables.
+    pub fn patterns(&self) -> impl Iterator<Item = Pattern> + use<> {
         children(&self.0)
     }
 }

@@ -13,6 +13,8 @@ nodes! {
     OptionalType
     /// `enum {a, b}`
     EnumType
+    /// `(Int, Point)`
+    TupleType
 }
 
 choice! {
@@ -24,6 +26,8 @@ choice! {
         Optional(OptionalType),
         /// `enum {a, b}`
         Enum(EnumType),
+        /// `(Int, Point)`
+        Tuple(TupleType),
     }
 }
 
@@ -62,5 +66,12 @@ impl EnumType {
         child::<VariantList>(&self.0)
             .into_iter()
             .flat_map(|list| list.variants())
+    }
+}
+
+impl TupleType {
+    /// The types of its parts.
+    pub fn types(&self) -> impl Iterator<Item = Type> + use<> {
+        children(&self.0)
     }
 }

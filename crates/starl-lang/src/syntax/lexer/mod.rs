@@ -57,7 +57,11 @@ pub(crate) fn lex(text: &str) -> Tokens {
     };
     let mut at = 0;
     while at < text.len() {
-        let (kind, length) = token(&text[at..]);
+        let before = tokens.kinds.iter().rev().find(|kind| **kind != Whitespace);
+        let (kind, length) = match before {
+            Some(Dot) if text.as_bytes()[at].is_ascii_digit() => number::part(&text[at..]),
+            _ => token(&text[at..]),
+        };
         // A byte order mark is as good as nothing at the start.
         let kind = if at == 0 && text.starts_with('\u{feff}') {
             Whitespace

@@ -4,6 +4,14 @@ use super::SyntaxKind::{self, *};
 use super::name;
 use crate::syntax::literal::unit;
 
+/// The number of a tuple's part at the start of the text: digits alone, so that `t.0.1` is the part 1 of the part 0.
+pub(super) fn part(text: &str) -> (SyntaxKind, usize) {
+    let digits = text
+        .bytes()
+        .take_while(|byte| byte.is_ascii_digit() || *byte == b'_');
+    (IntegerLiteral, digits.count())
+}
+
 /// The number at the start of the text, with all letters and digits that follow it.
 pub(super) fn number(text: &str) -> (SyntaxKind, usize) {
     let bytes = text.as_bytes();

@@ -17,6 +17,9 @@ pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
             parser.bump();
         }
         height = height.max(expression_parsed(parser).height);
+        if parser.at(ForKeyword) {
+            height = height.max(comprehension(parser));
+        }
         parser.finish();
     });
     parser.finish();
@@ -92,9 +95,9 @@ fn comprehension(parser: &mut Parser<'_>) -> u32 {
 /// `x in xs` or `k, v in map`; the height of the collection.
 pub(super) fn iteration(parser: &mut Parser<'_>) -> u32 {
     parser.start(LoopVariables);
-    name(parser);
+    pattern(parser);
     if parser.eat(Comma) {
-        name(parser);
+        pattern(parser);
     }
     parser.finish();
     if parser.expect(InKeyword) {
@@ -102,4 +105,16 @@ pub(super) fn iteration(parser: &mut Parser<'_>) -> u32 {
     } else {
         0
     }
+}
+
+/// A name, or names for the parts of a tuple: `x` or `(a, b)`.
+pub(super) fn pattern(parser: &mut Parser<'_>) {
+    if !parser.at(LeftParen) {
+        return name(parser);
+    }
+    let open = parser.span();
+    parser.start(TuplePattern);
+    parser.bump();
+    parser.separated(RightParen, open, name);
+    parser.finish();
 }

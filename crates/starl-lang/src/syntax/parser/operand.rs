@@ -7,6 +7,7 @@ use rowan::Checkpoint;
 use super::collection::{self, iteration};
 use super::expression::{self, Parsed, Shape, binary, condition, expression_parsed, power};
 use super::item::name;
+use super::types;
 use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*};
 use crate::syntax::literal;
 
@@ -55,8 +56,11 @@ pub(super) fn postfix(parser: &mut Parser<'_>, start: Checkpoint) -> Parsed {
     }
 }
 
-/// The name after a dot; a keyword there can only be meant as a name.
+/// The name or the number after a dot; a keyword there can only be meant as a name.
 fn field_name(parser: &mut Parser<'_>) {
+    if parser.eat(IntegerLiteral) {
+        return;
+    }
     if parser.current().is_keyword() {
         let message = format!("{} is a keyword and cannot be a name", parser.found());
         parser.report(Diagnostic::new(Code::KeywordAsName, parser.span(), message));
@@ -125,19 +129,31 @@ fn number_or_other_literal(parser: &mut Parser<'_>) -> Parsed {
     Parsed::new(Shape::Other, 1)
 }
 
+/// `(a)` or `(a, b)`.
 fn parenthesized(parser: &mut Parser<'_>) -> Parsed {
-    let open = parser.span();
-    parser.start(ParenthesizedExpression);
+    let (open, start) = (parser.span(), parser.checkpoint());
     parser.bump();
-    let parsed = binary(parser, 0);
-    if !parser.at(RightParen) && !parser.at_line_end() {
-        parser.unexpected(RightParen.name());
-        parser.skip_element();
-        while parser.eat(Comma) {
+    let mut parsed = binary(parser, 0);
+    let comma = parser.span();
+    let mut kind = ParenthesizedExpression;
+    if parser.eat(Comma) {
+        if parser.at(RightParen) {
+            let problem = Diagnostic::new(Code::ShortTuple, comma, types::SHORT_TUPLE);
+            parser.report(problem.replace("remove the comma", comma, ""));
+        } else {
+            kind = TupleExpression;
+        }
+        parser.separated(RightParen, open, |parser| {
+            parsed.height = parsed.height.max(expression_parsed(parser).height);
+        });
+    } else {
+        if !parser.at(RightParen) && !parser.at_line_end() {
+            parser.unexpected(RightParen.name());
             parser.skip_element();
         }
+        parser.close(RightParen, open);
     }
-    parser.close(RightParen, open);
+    parser.start_at(start, kind);
     parser.finish();
     let shape = if parsed.shape == Shape::Broken {
         Shape::Broken
@@ -151,7 +167,7 @@ fn parenthesized(parser: &mut Parser<'_>) -> Parsed {
 fn some(parser: &mut Parser<'_>) -> Parsed {
     parser.start(SomeExpression);
     parser.bump();
-    name(parser);
+    collection::pattern(parser);
     let parsed = if parser.expect(Equal) {
         binary(parser, power::COMPARISON)
     } else {
@@ -186,17 +202,25 @@ fn conditional(parser: &mut Parser<'_>) -> Parsed {
 /// Whether `forall` or `exists` is next, with a name after it.
 fn is_quantifier(parser: &Parser<'_>) -> bool {
     matches!(parser.word(), "forall" | "exists")
-        && parser.nth(1) == Identifier
-        && matches!(parser.nth(2), Comma | Colon | InKeyword)
+        && (runs_over(parser)
+            || parser.nth(1) == Identifier && matches!(parser.nth(2), Comma | Colon))
+}
+
+/// Whether `x in`, `k, v in` or the same with tuples of names is after the next word.
+fn runs_over(parser: &Parser<'_>) -> bool {
+    let is_name =
+        |at: &usize| matches!(parser.nth(*at), Identifier | Comma | LeftParen | RightParen);
+    let end = (1..).find(|at| !is_name(at)).unwrap_or_default();
+    end > 1 && parser.nth(end) == InKeyword
 }
 
 /// `forall r, s: condition` or `forall x in xs: condition`.
 fn quantifier(parser: &mut Parser<'_>) -> Parsed {
+    let is_over_collection = runs_over(parser);
     parser.start(QuantifierExpression);
     parser.bump();
-    let has_two = parser.nth(1) == Comma && parser.nth(3) == InKeyword;
     let mut height = 0;
-    if parser.nth(1) == InKeyword || has_two {
+    if is_over_collection {
         height = iteration(parser);
     } else {
         name(parser);

@@ -3,7 +3,6 @@
 use alloc::format;
 
 use super::expression::{condition, expression as value};
-use super::item::name;
 use super::slips::{self, Colon as HeaderColon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, assignment, block, collection, types};
 
@@ -81,7 +80,7 @@ fn local(parser: &mut Parser<'_>) {
 }
 
 fn local_rest(parser: &mut Parser<'_>) {
-    name(parser);
+    collection::pattern(parser);
     if parser.eat(Colon) {
         types::any(parser);
     }

@@ -1,6 +1,9 @@
 //! Types: `Int`, `List[Point]`, `Map[String, Int]?`, `geometry.Line`, `enum {a, b}`.
 
-use super::{Code, Diagnostic, Parser, SyntaxKind::*, record};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, record};
+
+/// The message about a tuple of one part.
+pub(super) const SHORT_TUPLE: &str = "a tuple has at least two parts";
 
 /// Parses a type, or reports that it is missing.
 pub(super) fn any(parser: &mut Parser<'_>) {
@@ -26,6 +29,10 @@ fn single(parser: &mut Parser<'_>) -> bool {
         parser.finish();
         return true;
     }
+    if parser.at(LeftParen) {
+        tuple(parser);
+        return true;
+    }
     if !parser.at(Identifier) {
         parser.unexpected("a type");
         return false;
@@ -43,6 +50,29 @@ fn single(parser: &mut Parser<'_>) -> bool {
     }
     parser.finish();
     true
+}
+
+/// `(Int, RobotId)`
+fn tuple(parser: &mut Parser<'_>) {
+    let open = parser.span();
+    parser.start(TupleType);
+    parser.bump();
+    let mut parts = 0;
+    if parser.at(RightParen) {
+        parser.unexpected("a type");
+    }
+    parser.separated(RightParen, open, |parser| {
+        parts += 1;
+        any(parser);
+    });
+    if parts == 1 && parser.last_error != Some(parser.position) {
+        let span = open.to(Span::empty(parser.end_of_last()));
+        let inner = span.of(parser.text).trim_start_matches('(');
+        let inner = inner.trim_end_matches([')', ',', ' ']);
+        let problem = Diagnostic::new(Code::ShortTuple, span, SHORT_TUPLE);
+        parser.report(problem.replace(alloc::format!("write `{inner}`"), span, inner));
+    }
+    parser.finish();
 }
 
 fn arguments(parser: &mut Parser<'_>) {

@@ -85,3 +85,43 @@ fn by_is_no_reserved_word() {
     let body = "let by = [3, 1]\nby = [x for x in by by x + by[0]]\nlog(\"{}\", by)";
     assert_eq!(effect("", body).unwrap(), ["log(\"[1, 3]\")"]);
 }
+
+#[test]
+fn the_best_element() {
+    values(
+        "bids: Map[Int, Float] = {1: 2.5, 2: 0.5, 3: 0.5, 4: 2.5}
+nan: Float = 0.0 / 0.0
+texts: List[String] = [\"b\", \"ab\", \"a\", \"ab\"]
+nothing: List[Int]",
+        &[
+            ("min(n for n in [3, 1, 2])", "1"),
+            ("max(n * n for n in -3..3)", "9"),
+            ("min(n for n in nothing)", "none"),
+            ("max(n for n in [1, 2] if n > 2) ?? 7", "7"),
+            ("min(r for r, bid in bids by bid)", "2"),
+            ("max(r for r, bid in bids by bid)", "1"),
+            ("max(r for r, bid in bids by (bid, r))", "4"),
+            ("min(r for r in bids by (-bids[r], -r))", "4"),
+            ("min((bid, r) for r, bid in bids)", "(0.5, 2)"),
+            (
+                "max((bid, String(r)) for r, bid in bids if r < 4)",
+                "(2.5, \"1\")",
+            ),
+            ("min(t for t in texts)", "a"),
+            ("max(t for t in texts by t.size())", "ab"),
+            ("min(t + \"!\" for t in texts by (t.size(), t))", "a!"),
+            ("min([t] for t in texts by t)", "[\"a\"]"),
+            ("min(x for x in [nan, 2.0, 1.0])", "1.0"),
+            ("max(x for x in [1.0, -nan])", "1.0"),
+            ("[x for x in [nan, 2.0] by x].first()", "2.0"),
+            ("min(o for o in [bids.get(9), bids.get(1)] by 1)", "none"),
+            ("min(o for o in [bids.get(1), bids.get(9)] by 1)", "2.5"),
+            ("min(min(n, 2) for n in [3, 4])", "2"),
+            (
+                "min(m for m in [min(n for n in [k, 5]) ?? 0 for k in [8, 3]])",
+                "3",
+            ),
+            ("max(n for (n, _) in [(1, 9), (2, 0)])", "2"),
+        ],
+    );
+}

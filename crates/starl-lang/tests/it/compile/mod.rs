@@ -31,3 +31,4 @@ mod shared;
 mod start;
 mod texts;
 mod times;
+mod tuples;

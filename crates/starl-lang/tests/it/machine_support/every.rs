@@ -173,6 +173,7 @@ function start procedure () () registers 40 objects 20
     list_get b5 r5 r6 b0
     list_set b5 r5 r6 b0
     list_find r7 b5 r0 b0 type1
+    less_element r7 r0 b0 r0 b0 type1
     list_append b5 b5
     list_reverse b5
     list_sort b5 type1

@@ -124,7 +124,8 @@ impl Generator<'_> {
 
     /// ` by key`
     fn sorting(&mut self, depth: u32) -> String {
-        let ordered = [Type::Int, Type::Float, Type::String, Type::Duration];
+        let pair = Type::Tuple(vec![Type::Float, Type::String]);
+        let ordered = [Type::Int, Type::Float, Type::String, Type::Duration, pair];
         let key = &ordered[self.choices.below(ordered.len())];
         let key = self.expression(key, Context::Unknown, depth).at(power::OR);
         format!(" by {key}")
@@ -167,7 +168,7 @@ impl Generator<'_> {
         if self.choices.below(8) == 7 {
             return "_".into();
         }
-        self.add_local(ty, false)
+        self.pattern(ty, false)
     }
 
     pub(super) fn optional(&mut self, inner: &Type, context: Context, depth: u32) -> Text {
@@ -196,11 +197,28 @@ impl Generator<'_> {
                 let list = self.expression(&list, Context::Unknown, depth);
                 Text::atom(format!("choose({})", list.text))
             }
+            0 | 1 | 8 if self.choices.below(2) == 1 => self.best(inner, depth),
             8 if *inner == Type::Point && self.place.asks() => {
                 self.applied("way_point", &[&Type::String], depth)
             }
             _ => self.method(&list, "first", &[], depth),
         }
+    }
+
+    /// `min(x for x in xs by key)`
+    fn best(&mut self, inner: &Type, depth: u32) -> Text {
+        let name = ["min", "max"][self.choices.below(2)];
+        let mark = self.locals.len();
+        let (clause, condition) = self.clause(depth);
+        let element = self
+            .expression(inner, Context::Unknown, depth)
+            .at(power::OR);
+        let key = match inner.is_ordered() && self.choices.below(2) == 1 {
+            true => String::new(),
+            false => self.sorting(depth),
+        };
+        self.locals.truncate(mark);
+        Text::atom(format!("{name}({element} {clause}{condition}{key})"))
     }
 
     /// `forall r: condition`.

@@ -151,7 +151,7 @@ impl Generator<'_> {
         let optional = Type::optional(inner.clone());
         let value = self.expression(&optional, Context::Unknown, depth);
         let value = value.at(power::RANGE);
-        let name = self.add_local(inner, false);
+        let name = self.pattern(inner, false);
         format!("some {name} = {value}")
     }
 
@@ -193,6 +193,10 @@ impl Generator<'_> {
                     let fields = self.model.records[number].fields.iter();
                     let fields = fields.filter(|field| field.ty == *ty);
                     found.extend(fields.map(|field| (format!("{name}.{}", field.name), None)));
+                }
+                Type::Tuple(parts) => {
+                    let parts = parts.iter().enumerate().filter(|(_, part)| *part == ty);
+                    found.extend(parts.map(|(number, _)| (format!("{name}.{number}"), None)));
                 }
                 Type::Point if *ty == Type::Float => {
                     found.extend(["x", "y", "z"].map(|axis| (format!("{name}.{axis}"), None)));

@@ -82,6 +82,7 @@ impl Generator<'_> {
             }
             Type::Enum(number) => self.variant(*number, context),
             Type::Record(number) => self.record(*number, 0),
+            Type::Tuple(parts) => self.tuple(parts, context, 0),
             Type::List(element) => {
                 if context != Context::Unknown && self.choices.below(2) == 0 {
                     return Text::atom("[]");
@@ -144,6 +145,14 @@ impl Generator<'_> {
             }
             _ => Text::atom(variant),
         }
+    }
+
+    /// `(a, b)`
+    pub(super) fn tuple(&mut self, parts: &[Type], context: Context, depth: u32) -> Text {
+        let parts: Vec<String> = (parts.iter())
+            .map(|part| self.expression(part, context.part(), depth).text)
+            .collect();
+        Text::atom(format!("({})", parts.join(", ")))
     }
 
     /// A record, by position or by names.

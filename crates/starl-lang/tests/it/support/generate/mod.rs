@@ -98,6 +98,22 @@ impl Generator<'_> {
         self.text.push('\n');
     }
 
+    /// A local, or the parts of a tuple as locals.
+    fn pattern(&mut self, ty: Type, is_writable: bool) -> String {
+        let parts = match ty {
+            Type::Tuple(parts) if self.choices.below(2) == 1 => parts,
+            ty => return self.add_local(ty, is_writable),
+        };
+        let mut names = Vec::new();
+        for part in parts {
+            names.push(match self.choices.below(8) {
+                7 => "_".into(),
+                _ => self.add_local(part, is_writable),
+            });
+        }
+        format!("({})", names.join(", "))
+    }
+
     /// A local with a name that no other has which can be seen.
     fn add_local(&mut self, ty: Type, is_writable: bool) -> String {
         let name = format!("x{}", self.locals.len());

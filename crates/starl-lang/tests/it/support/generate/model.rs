@@ -17,6 +17,7 @@ pub enum Type {
     Enum(usize),
     /// A record or a message, by its number.
     Record(usize),
+    Tuple(Vec<Type>),
     List(Box<Type>),
     Set(Box<Type>),
     Map(Box<Type>, Box<Type>),
@@ -46,8 +47,11 @@ impl Type {
 
     /// Whether `<` compares values of it.
     pub fn is_ordered(&self) -> bool {
-        use Type::{Duration, Float, Int, Robot, String, Time};
-        matches!(self, Int | Float | String | Time | Duration | Robot)
+        use Type::{Duration, Float, Int, Robot, String, Time, Tuple};
+        match self {
+            Tuple(parts) => parts.iter().all(Type::is_ordered),
+            _ => matches!(self, Int | Float | String | Time | Duration | Robot),
+        }
     }
 }
 
@@ -199,6 +203,10 @@ impl Model {
             Type::Obstacles => "Obstacles".into(),
             Type::Enum(number) => self.enums[*number].name.clone().unwrap_or_default(),
             Type::Record(number) => self.records[*number].name.clone(),
+            Type::Tuple(parts) => {
+                let parts: Vec<String> = parts.iter().map(|part| self.written(part)).collect();
+                format!("({})", parts.join(", "))
+            }
             Type::List(element) => format!("List[{}]", self.written(element)),
             Type::Set(element) => format!("Set[{}]", self.written(element)),
             Type::Map(key, value) => {
@@ -223,6 +231,7 @@ impl Model {
                 let mut fields = self.records[*number].fields.iter();
                 fields.all(|field| self.is_key(&field.ty))
             }
+            Type::Tuple(parts) => parts.iter().all(|part| self.is_key(part)),
             _ => false,
         }
     }
@@ -235,6 +244,7 @@ impl Model {
                 let mut fields = self.records[*number].fields.iter();
                 fields.all(|field| self.has_default(&field.ty))
             }
+            Type::Tuple(parts) => parts.iter().all(|part| self.has_default(part)),
             _ => true,
         }
     }

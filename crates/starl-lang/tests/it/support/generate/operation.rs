@@ -19,6 +19,10 @@ impl Generator<'_> {
             Type::Time => self.time(context, depth),
             Type::Duration => self.duration(context, depth),
             Type::Record(number) => self.record(*number, depth),
+            Type::Tuple(_) if ty.is_ordered() && self.choices.below(4) == 3 => {
+                self.chosen(ty, depth)
+            }
+            Type::Tuple(parts) => self.tuple(parts, context, depth),
             Type::List(element) => self.list(element, context, depth),
             Type::Set(element) => self.set(element, context, depth),
             Type::Map(key, value) => self.map(key, value, context, depth),
@@ -246,7 +250,8 @@ impl Generator<'_> {
 
     fn order(&mut self, depth: u32) -> Text {
         let types = [Int, Float, Str, Duration, Time, Robot];
-        let ty = &types[self.choices.below(6)];
+        let tuple = Type::Tuple(vec![Float, self.ordered_tuple()]);
+        let ty = types.get(self.choices.below(8)).unwrap_or(&tuple);
         let ty = if self.can_make(ty) { ty } else { &Int };
         let sign = ["<", "<=", ">", ">="][self.choices.below(4)];
         // A built-in name is looked at after the other side, which then has nothing to go by.

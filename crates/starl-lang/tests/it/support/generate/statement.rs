@@ -61,11 +61,11 @@ impl Generator<'_> {
         let ty = self.made_type(2);
         let line = if self.choices.below(2) == 0 {
             let value = self.expression(&ty, Context::Unknown, 3).text;
-            format!("let {} = {value}", self.add_local(ty, true))
+            format!("let {} = {value}", self.pattern(ty, true))
         } else {
             let value = self.expression(&ty, Context::Fit, 3).text;
             let written = self.model.written(&ty);
-            format!("let {}: {written} = {value}", self.add_local(ty, true))
+            format!("let {}: {written} = {value}", self.pattern(ty, true))
         };
         self.line(&line);
     }
@@ -244,6 +244,12 @@ impl Generator<'_> {
         )?;
         let kind = self.choices.below(6);
         let call = match (&ty, kind) {
+            // A function sees no robots, so it cannot make what some of its tuples hold.
+            (Type::List(part) | Type::Set(part) | Type::Map(part, _), _)
+                if !self.can_make(part) =>
+            {
+                return None;
+            }
             (Type::List(element), 0..=2) => self.applied("add", &[element], 2).text,
             (Type::List(element), 3) => {
                 let element = self.expression(element, Context::Fit, 2).text;

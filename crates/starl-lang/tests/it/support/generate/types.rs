@@ -7,7 +7,7 @@ impl Generator<'_> {
     /// Any type that a declaration may have.
     pub(super) fn any_type(&mut self, depth: u32) -> Type {
         use Type::{Area, Bool, Duration, Float, Int, Obstacles, Point, Robot, String, Time};
-        let kinds = if depth == 0 { 12 } else { 18 };
+        let kinds = if depth == 0 { 12 } else { 20 };
         match self.choices.below(kinds) {
             0 => Int,
             1 => Bool,
@@ -26,14 +26,19 @@ impl Generator<'_> {
                 let key = self.key_type();
                 Type::map(key, self.any_type(depth - 1))
             }
-            _ => Type::optional(self.any_type(depth - 1)),
+            16 | 17 => Type::optional(self.any_type(depth - 1)),
+            _ => {
+                let count = 2 + self.choices.below(2);
+                Type::Tuple((0..count).map(|_| self.any_type(depth - 1)).collect())
+            }
         }
     }
 
     /// A type whose values can be keys.
     pub(super) fn key_type(&mut self) -> Type {
         use Type::{Bool, Duration, Int, Point, Robot, String, Time};
-        match self.choices.below(10) {
+        match self.choices.below(11) {
+            10 => self.ordered_tuple(),
             0 | 1 => Int,
             2 | 3 => String,
             4 => [Bool, Duration][self.choices.below(2)].clone(),
@@ -49,6 +54,14 @@ impl Generator<'_> {
                 }
             }
         }
+    }
+
+    /// A pair that can be a key, and that `<` compares.
+    pub(super) fn ordered_tuple(&mut self) -> Type {
+        use Type::{Duration, Int, Robot, String};
+        let parts = [Int, String, Robot, Duration];
+        let mut part = || parts[self.choices.below(4)].clone();
+        Type::Tuple(vec![part(), part()])
     }
 
     /// A type of which a value can be made here.
@@ -87,6 +100,7 @@ impl Generator<'_> {
                 let mut fields = self.model.records[*number].fields.iter();
                 fields.all(|field| self.can_make(&field.ty))
             }
+            Type::Tuple(parts) => parts.iter().all(|part| self.can_make(part)),
             Type::List(part) | Type::Set(part) | Type::Optional(part) => self.can_make(part),
             Type::Map(key, value) => self.can_make(key) && self.can_make(value),
             _ => true,

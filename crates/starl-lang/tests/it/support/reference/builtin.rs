@@ -1,5 +1,6 @@
 //! Pure built-in functions, and methods.
 
+use super::operator::settled;
 use super::value::{Value, equal, find, order, set};
 use super::{Outcome, Stop};
 use starl_core::{Area, ConvexPolygon, Point, math};
@@ -16,7 +17,7 @@ pub fn pure(builtin: Builtin, arguments: Vec<Option<Value>>) -> Outcome<Value> {
         given.next().flatten(),
         given.next().flatten(),
     );
-    Ok(match (builtin, first, second, third) {
+    let value = match (builtin, first, second, third) {
         (Builtin::Pi, ..) => Float(std::f64::consts::PI),
         (Builtin::Abs, Some(Int(value)), ..) => {
             Int(value.checked_abs().ok_or(Stop::Fault(Fault::Overflow))?)
@@ -71,6 +72,10 @@ pub fn pure(builtin: Builtin, arguments: Vec<Option<Value>>) -> Outcome<Value> {
             Value::Area(Some(Area::Polygon(polygon)))
         }
         (builtin, first, second, _) => panic!("{builtin:?} of {first:?} and {second:?}"),
+    };
+    Ok(match value {
+        Float(number) => Float(settled(number)),
+        value => value,
     })
 }
 

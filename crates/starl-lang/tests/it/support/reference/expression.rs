@@ -1,7 +1,7 @@
 //! The values of expressions.
 
 use super::builtin::{index, method, position, pure, sum};
-use super::operator::apply;
+use super::operator::{apply, settled};
 use super::value::{Value, equal, find, order, put, set, shown, text, weight};
 use super::{Outcome, Reference, Stop, shared_kind};
 use starl_lang::check::{Builtin, Purity, Signature};
@@ -156,7 +156,10 @@ impl<'a> Reference<'a> {
                     Value::Int(value.checked_neg().ok_or(Stop::Fault(Fault::Overflow))?)
                 }
                 Value::Float(value) => Value::Float(-value),
-                Value::Point(p) => Value::Point(starl_core::Point::new(-p.x, -p.y, -p.z)),
+                Value::Point(p) => {
+                    let [x, y, z] = [p.x, p.y, p.z].map(|part| settled(-part));
+                    Value::Point(starl_core::Point::new(x, y, z))
+                }
                 other => panic!("{other:?} is not negated"),
             },
             Kind::Not(value) => Value::Bool(!self.holds(value)?),
@@ -210,6 +213,21 @@ impl<'a> Reference<'a> {
                 Value::Map(map)
             }
             Kind::Comprehension(comprehension) => self.comprehension(comprehension, ty)?,
+            Kind::Best {
+                comprehension,
+                is_greatest,
+            } => {
+                let mut rows = self.rows(comprehension)?;
+                let of = |row: &(Value, Option<Value>)| row.1.clone().unwrap_or(row.0.clone());
+                rows.sort_by(|left, right| match is_greatest {
+                    true => order(&of(right), &of(left)),
+                    false => order(&of(left), &of(right)),
+                });
+                match rows.into_iter().next() {
+                    Some((Value::Optional(inner), _)) => Value::Optional(inner),
+                    row => Value::Optional(row.map(|(value, _)| Box::new(value))),
+                }
+            }
             Kind::Quantifier {
                 is_universal,
                 robots,
@@ -489,6 +507,27 @@ impl<'a> Reference<'a> {
             Type::Set(_) => Value::Set(set(elements)),
             _ => Value::Map(map),
         })
+    }
+
+    /// The elements that a comprehension finds, with their keys.
+    fn rows(&mut self, of: &'a Comprehension) -> Outcome<Vec<(Value, Option<Value>)>> {
+        let mut rows = Vec::new();
+        let Element::One(element) = &of.element else {
+            panic!("an entry of a map")
+        };
+        for item in self.items(&of.collection)? {
+            self.step()?;
+            self.bind_loop(of.variables, item);
+            if let Some(condition) = &of.condition
+                && !self.holds(condition)?
+            {
+                continue;
+            }
+            let element = self.evaluate(element)?;
+            let key = of.key.as_ref().map(|key| self.evaluate(key)).transpose()?;
+            rows.push((element, key));
+        }
+        Ok(rows)
     }
 
     /// The items of a loop: elements, or keys with their values.

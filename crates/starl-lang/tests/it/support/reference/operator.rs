@@ -1,6 +1,6 @@
 //! Operators, as the language says.
 
-use super::value::{Value, equal, order};
+use super::value::{Value, comparison, equal};
 use super::{Outcome, Stop};
 use starl_core::{Point, math};
 use starl_lang::ir::Operator;
@@ -15,10 +15,7 @@ pub fn apply(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
         Equal => Value::Bool(equal(&left, &right, false).ok_or(unknown)?),
         NotEqual => Value::Bool(!equal(&left, &right, false).ok_or(unknown)?),
         Less | LessEqual | Greater | GreaterEqual => {
-            let found = match (&left, &right) {
-                (Value::Float(left), Value::Float(right)) => left.partial_cmp(right),
-                _ => Some(order(&left, &right)),
-            };
+            let found = comparison(&left, &right);
             Value::Bool(match operator {
                 Less => found == Some(Ordering::Less),
                 LessEqual => matches!(found, Some(Ordering::Less | Ordering::Equal)),
@@ -28,6 +25,11 @@ pub fn apply(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
         }
         _ => arithmetic(operator, left, right)?,
     })
+}
+
+/// All NaN are one, because processors differ in the sign of the NaN they produce.
+pub fn settled(number: f64) -> f64 {
+    if number.is_nan() { f64::NAN } else { number }
 }
 
 fn arithmetic(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
@@ -70,6 +72,7 @@ fn arithmetic(operator: Operator, left: Value, right: Value) -> Outcome<Value> {
 }
 
 fn point(a: Point, b: Point, each: impl Fn(f64, f64) -> f64) -> Value {
+    let each = |a, b| settled(each(a, b));
     Value::Point(Point::new(each(a.x, b.x), each(a.y, b.y), each(a.z, b.z)))
 }
 
@@ -87,12 +90,12 @@ fn integers(operator: Operator, left: i64, right: i64) -> Outcome<i64> {
 }
 
 fn floats(operator: Operator, left: f64, right: f64) -> f64 {
-    match operator {
+    settled(match operator {
         Operator::Add => left + right,
         Operator::Subtract => left - right,
         Operator::Multiply => left * right,
         _ => left / right,
-    }
+    })
 }
 
 fn sum(left: u64, right: u64) -> Outcome<u64> {

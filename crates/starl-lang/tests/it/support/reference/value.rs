@@ -86,48 +86,60 @@ pub fn weight(value: &Value) -> usize {
     }
 }
 
-/// A number in a value.
-enum Scalar {
+/// A number or a text in a value.
+enum Part<'a> {
     Int(i64),
     Float(f64),
+    Text(&'a str),
 }
 
 impl Value {
-    /// The numbers and the texts of what can be a key or sorted.
-    fn parts<'a>(&'a self, scalars: &mut Vec<Scalar>, texts: &mut Vec<&'a str>) {
+    /// The numbers and the texts of what can be a key or sorted, in the order of the text.
+    fn parts<'a>(&'a self, parts: &mut Vec<Part<'a>>) {
         match self {
-            Value::Bool(value) => scalars.push(Scalar::Int(i64::from(*value))),
-            Value::Int(value) => scalars.push(Scalar::Int(*value)),
-            Value::Float(value) => scalars.push(Scalar::Float(*value)),
-            Value::Time(value) | Value::Duration(value) => scalars.push(Scalar::Int(*value as i64)),
-            Value::Robot(value) => scalars.push(Scalar::Int(i64::from(*value))),
-            Value::Variant(value) => scalars.push(Scalar::Int(i64::from(*value))),
-            Value::Point(p) => scalars.extend([p.x, p.y, p.z].map(Scalar::Float)),
-            Value::Text(text) => texts.push(text),
-            Value::Record(fields) => fields.iter().for_each(|field| field.parts(scalars, texts)),
+            Value::Bool(value) => parts.push(Part::Int(i64::from(*value))),
+            Value::Int(value) => parts.push(Part::Int(*value)),
+            Value::Float(value) => parts.push(Part::Float(*value)),
+            Value::Time(value) | Value::Duration(value) => parts.push(Part::Int(*value as i64)),
+            Value::Robot(value) => parts.push(Part::Int(i64::from(*value))),
+            Value::Variant(value) => parts.push(Part::Int(i64::from(*value))),
+            Value::Point(p) => parts.extend([p.x, p.y, p.z].map(Part::Float)),
+            Value::Text(text) => parts.push(Part::Text(text)),
+            Value::Record(fields) => fields.iter().for_each(|field| field.parts(parts)),
             _ => panic!("{self:?} is no key"),
         }
     }
 }
 
-/// The order of keys and sorted values: by the numbers first, then by the texts.
+/// The order of keys and sorted values: the first parts that differ decide.
 pub fn order(left: &Value, right: &Value) -> Ordering {
-    let (mut scalars, mut texts) = (Vec::new(), Vec::new());
-    let (mut others, mut other_texts) = (Vec::new(), Vec::new());
-    left.parts(&mut scalars, &mut texts);
-    right.parts(&mut others, &mut other_texts);
-    for (left, right) in scalars.iter().zip(&others) {
-        let found = match (left, right) {
-            (Scalar::Int(left), Scalar::Int(right)) => left.cmp(right),
-            // A zero has no sign here.
-            (Scalar::Float(left), Scalar::Float(right)) => (left + 0.0).total_cmp(&(right + 0.0)),
-            _ => panic!("keys of two types"),
-        };
-        if found != Ordering::Equal {
-            return found;
+    let (mut parts, mut others) = (Vec::new(), Vec::new());
+    left.parts(&mut parts);
+    right.parts(&mut others);
+    let orders = parts.iter().zip(&others).map(|parts| match parts {
+        (Part::Int(left), Part::Int(right)) => left.cmp(right),
+        // A zero has no sign here.
+        (Part::Float(left), Part::Float(right)) => (left + 0.0).total_cmp(&(right + 0.0)),
+        (Part::Text(left), Part::Text(right)) => left.cmp(right),
+        _ => panic!("keys of two types"),
+    });
+    orders
+        .into_iter()
+        .find(|order| order.is_ne())
+        .unwrap_or(Ordering::Equal)
+}
+
+/// The order that `<` and its like compare by; none if NaN decides.
+pub fn comparison(left: &Value, right: &Value) -> Option<Ordering> {
+    match (left, right) {
+        (Value::Float(left), Value::Float(right)) => left.partial_cmp(right),
+        (Value::Record(left), Value::Record(right)) => {
+            let orders = left.iter().zip(right).map(|(l, r)| comparison(l, r));
+            let mut different = orders.filter(|order| *order != Some(Ordering::Equal));
+            different.next().unwrap_or(Some(Ordering::Equal))
         }
+        _ => Some(order(left, right)),
     }
-    texts.cmp(&other_texts)
 }
 
 /// The value that a variable of the type has if none is given.
