@@ -42,12 +42,12 @@ const VELOCITY_GAIN: f64 = 2.8;
 /// make it overshoot.
 const SLOWEST_OBSERVER: f64 = 2.5;
 /// The same where they are frequent. A quicker one strays less still, until noise of the velocity moves the drone.
-const QUICKEST_OBSERVER: f64 = 12.0;
-/// The time between estimates up to which they are frequent, seconds; at 1.7 times that they are seldom.
+const QUICKEST_OBSERVER: f64 = 8.0;
+/// The time between estimates up to which they are frequent, seconds; at 1.8 times that they are seldom.
 const FREQUENT: f64 = 0.05;
 /// Where estimates are frequent, the push is extrapolated by this time, seconds, at the rate at which it changes: so long
 /// the drone takes to notice it and to tilt.
-const LEAD: f64 = 0.3;
+const LEAD: f64 = 0.25;
 /// The push is taken to be at most this many times what the drone can hold against.
 const MOST_PUSH: f64 = 1.5;
 /// Seconds for which the push has to exceed what the drone can hold against until it counts as overpowered:
@@ -84,8 +84,13 @@ impl Gains {
         tracking.overpowered >= OVERPOWERED_AFTER
     }
 
-    /// By tilt and by drag in still air.
+    /// By tilt and by drag in still air, at a steady height.
     fn own_acceleration(&self, estimate: &Estimate) -> Point {
+        self.tilting(estimate) - estimate.twist.linear.at_height(0.0) * self.drag
+    }
+
+    /// The part of the acceleration that the tilt causes, at a steady height.
+    fn tilting(&self, estimate: &Estimate) -> Point {
         let Pose {
             yaw, pitch, roll, ..
         } = estimate.pose;
@@ -94,8 +99,7 @@ impl Gains {
             tan(pitch) * self.gravity,
             tan(roll) / math::cos(pitch) * self.gravity,
         );
-        let tilting = Point::planar(cos * ahead + sin * aside, sin * ahead - cos * aside);
-        tilting - estimate.twist.linear.at_height(0.0) * self.drag
+        Point::planar(cos * ahead + sin * aside, sin * ahead - cos * aside)
     }
 
     /// One step of tracking.
@@ -149,16 +153,21 @@ impl Gains {
     /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to. Returns the push
     /// to compensate: the one that is expected when the drone has tilted.
     fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) -> Point {
-        let velocity = estimate.twist.linear.at_height(0.0);
-        let own = self.own_acceleration(estimate);
+        let velocity = estimate.twist.linear;
+        let tilting = self.tilting(estimate);
         let expected = match tracking.last {
             Some(last) => {
-                last.velocity + ((last.acceleration + own) * 0.5 + tracking.push) * period
+                // A drone that climbs faster and faster has more thrust.
+                let climb = (velocity.z - last.velocity.z) / period;
+                let thrust = 1.0 + climb / self.gravity;
+                let own = (last.tilting + tilting) * (0.5 * thrust)
+                    - (last.velocity + velocity) * (0.5 * self.drag);
+                (last.velocity + (own + tracking.push) * period).at_height(velocity.z)
             }
             None => velocity,
         };
         let often = (FREQUENT / period).min(1.0);
-        let rate = (QUICKEST_OBSERVER * often * often * often).max(SLOWEST_OBSERVER);
+        let rate = (QUICKEST_OBSERVER * often * often).max(SLOWEST_OBSERVER);
         let keep = exp(-rate * period);
         let surprise = velocity - expected;
         let change = surprise * ((1.0 - keep) * (1.0 - keep) / period);
@@ -170,7 +179,7 @@ impl Gains {
         };
         tracking.last = Some(Moment {
             velocity: expected + surprise * (1.0 - keep * keep),
-            acceleration: own,
+            tilting,
         });
         tracking.push + change * (LEAD * often / period)
     }

@@ -74,8 +74,8 @@ pub struct Tracking {
 struct Moment {
     /// The velocity that it is taken to have had, metres per second.
     velocity: Point,
-    /// Its own acceleration, without that of the push, metres per second squared.
-    acceleration: Point,
+    /// The acceleration that its tilt caused, metres per second squared.
+    tilting: Point,
 }
 
 /// The time between estimates that a tracker reckons with before it has seen two, seconds.
