@@ -13,9 +13,9 @@
 //!
 //! These guarantees hold whatever the network does and whichever robots crash and restart, as long as
 //! state is not corrupted:
-//! - agreement: lists with the same time and coordinator are equal. The times of any two lists with a
-//!   common robot are at least [`Options::settle`] apart (the thesis's d), so lists whose times are nearer
-//!   are equal or disjoint;
+//! - agreement: lists with the same name are equal. The times of any two lists with a
+//!   robot in common, in one life of it, are at least [`Options::settle`] apart (the thesis's d). Lists of
+//!   different coordinators never have the same time;
 //! - exclusion: two robots that list each other, both still in the life in which they are listed, show the
 //!   same list or one of them shows none;
 //! - soundness: a robot is in a list only if it was registered when it accepted that list, which is after

@@ -3,9 +3,9 @@
 //!
 //! Invariants:
 //! - a list is committed only when all in it have accepted it;
-//! - no two lists have the same time. Those of one life of a coordinator rise. Its next life makes no list before
-//!   `gather` has passed, and no list is dated further ahead than that, unless clocks differ by more than
-//!   `longest_timeout`.
+//! - lists of different coordinators never have the same time, and those of one life of a coordinator rise. Its next
+//!   life makes no list before `gather` has passed, and no list is dated further ahead than that, unless clocks differ
+//!   by more than `longest_timeout`. Then two lives may date lists alike by chance.
 
 use super::packet::{Packet, Roll, View, ViewId};
 use super::{Alarm, Registration, Stage};
@@ -38,9 +38,14 @@ impl Registration {
     }
 
     /// The time of a list that this robot computes now.
-    fn next_time(&mut self, robot: &Robot<'_>) -> Time {
+    fn next_time(&mut self, robot: &mut Robot<'_>) -> Time {
         self.hear_time(self.promised.time);
-        let earliest = robot.now().max(self.latest + self.apart());
+        let mut earliest = robot.now().max(self.latest + self.apart());
+        if earliest > robot.now() + self.options.gather + self.options.longest_timeout {
+            // An earlier life of this robot may have continued from the same list.
+            let spread = self.apart().seconds() * robot.random().uniform();
+            earliest += Duration::from_seconds_f64(spread);
+        }
         let own = u64::from(robot.id().0) % COORDINATORS;
         let later = (own + COORDINATORS - earliest.0 % COORDINATORS) % COORDINATORS;
         earliest + Duration(later)

@@ -240,7 +240,7 @@ fn late_messages_bring_back_no_registration_that_is_over() {
 }
 
 /// A robot that hears the others and is not heard waited for each of them in turn, longer than it left the first of
-/// them out, so that it waited for that one again. It also waited for each that registered anew.
+/// them out, so that it waited for that one again. It also waited for each that registered again.
 #[test]
 fn a_robot_that_is_not_heard_shows_a_list_of_itself() {
     for count in [3, 5, 10] {

@@ -166,7 +166,7 @@ impl Instance {
         is_doubtful
     }
 
-    /// The members of this list that are in another list of the same time, with any of their lives.
+    /// The members of this list that are in a list of the same time by another coordinator, with any of their lives.
     fn in_two_lists(&self, id: ListId, members: &[RobotId]) -> Vec<RobotId> {
         let first = ListId {
             coordinator: RobotId(0),
@@ -175,7 +175,8 @@ impl Instance {
         };
         let others = self.lists.range(first..);
         let others = others.take_while(|(other, _)| other.time == id.time);
-        let others = others.filter(|(other, list)| **other != id && !list.is_doubtful);
+        let others =
+            others.filter(|(other, list)| other.coordinator != id.coordinator && !list.is_doubtful);
         let theirs = others.filter_map(|(_, other)| other.members.as_ref());
         let of_both = theirs.flatten().filter(|robot| members.contains(robot));
         of_both.copied().collect()
