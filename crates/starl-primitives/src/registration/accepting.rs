@@ -28,8 +28,8 @@ impl Registration {
         if Some(named) != ticket {
             return self.deny(robot, Destination::Robot(from), named);
         }
-        if let Some(&ticket) = self.ended.get(&from)
-            && view.roll.get(&from) == Some(&ticket)
+        if let Some(&ticket) = view.roll.get(&from)
+            && self.past.is_over(from, ticket)
         {
             // It has left since, and would not say that all have accepted.
             let over = Packet::Over { ticket };

@@ -5,6 +5,7 @@
 //! hear of each other, robots that are listed by mistake object, and a robot with an outdated list learns it.
 
 use super::packet::{Announcement, Packet, Roll, View};
+use super::ticket::Ticket;
 use super::{Alarm, LATEST, Registration, Stage};
 use starl_core::{Area, Destination, Duration, Message, Robot, RobotId, Time};
 
@@ -21,6 +22,7 @@ impl Registration {
         let Some(packet) = message.read::<Packet>() else {
             return;
         };
+        let knows_me = self.is_answer(robot.id(), &packet);
         match packet {
             Packet::Leave { ticket } => self.end(robot, from, ticket),
             Packet::Announce(said) => self.hear(robot, from, &said),
@@ -32,6 +34,27 @@ impl Registration {
                 self.refused(robot, from, id, promised, &also);
             }
             Packet::Commit(id) => self.committed(robot, from, id),
+        }
+        if let Some(peer) = self.peers.get_mut(&from) {
+            peer.hears |= knows_me;
+        }
+    }
+
+    /// Whether only a robot that knows of this one's registration sends this.
+    fn is_answer(&self, me: RobotId, packet: &Packet) -> bool {
+        let ticket = self.own.as_ref().map(|own| own.ticket);
+        let lists = |view: &View| ticket.is_some() && view.roll.get(&me).copied() == ticket;
+        match packet {
+            Packet::Announce(said) => {
+                said.view.as_ref().is_some_and(lists)
+                    || said
+                        .waits_for
+                        .is_some_and(|(robot, named)| robot == me && Some(named) == ticket)
+            }
+            Packet::Propose(view) => lists(view),
+            Packet::Accept { id, .. } | Packet::Refuse { id, .. } => id.coordinator == me,
+            Packet::Over { ticket: over } => Some(*over) == ticket,
+            Packet::Commit(_) | Packet::Leave { .. } => false,
         }
     }
 
@@ -83,6 +106,9 @@ impl Registration {
 
     /// A list was gained or lost: announcements become frequent again.
     pub(super) fn begin_announcing(&mut self, robot: &mut Robot<'_>, soon: bool) {
+        for peer in self.peers.values_mut() {
+            peer.hears = false;
+        }
         if let Some(own) = &mut self.own {
             own.announcements = 0;
             if soon {
@@ -111,11 +137,13 @@ impl Registration {
         }
         let leader = self.leader(robot.id());
         match &self.stage {
+            Stage::Open | Stage::Proposed { .. }
+                if announcements > self.options.repetitions + 1 =>
+            {
+                self.shun_deaf(robot);
+            }
             Stage::Open if leader != robot.id() && announcements > self.options.repetitions => {
                 self.shun(robot, leader);
-                if let Some(own) = &mut self.own {
-                    own.announcements = 0;
-                }
                 self.look_within(robot, self.options.settle);
             }
             Stage::Open | Stage::Agreed { .. } => self.look_within(robot, self.options.settle),
@@ -129,7 +157,7 @@ impl Registration {
         let listed = said.view.as_ref().and_then(|view| view.roll.get(&me));
         let awaited = said.waits_for.filter(|(robot, _)| *robot == me);
         let ticket = self.own.as_ref().map(|own| own.ticket);
-        let wrong = |named: &u32| Some(*named) != ticket;
+        let wrong = |named: &Ticket| Some(*named) != ticket;
         if let Some(&over) = listed.filter(|named| wrong(named)) {
             self.deny(robot, Destination::All, over);
         } else if let Some((_, over)) = awaited.filter(|(_, named)| wrong(named)) {
@@ -141,7 +169,7 @@ impl Registration {
         if self.own.is_none() {
             return;
         }
-        if self.ended.get(&from) == Some(&said.ticket) {
+        if self.past.is_over(from, said.ticket) {
             let ticket = said.ticket;
             let over = Packet::Over { ticket };
             return robot.transmit(Destination::Robot(from), self.port, &over);

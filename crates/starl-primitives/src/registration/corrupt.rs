@@ -1,6 +1,7 @@
 //! Overwriting the state at random, as a transient fault would.
 
 use super::roster::{Peer, Shunned};
+use super::ticket::Ticket;
 use super::{Registration, Stage};
 use alloc::collections::BTreeSet;
 use starl_core::{Random, RobotId, Time};
@@ -10,7 +11,7 @@ impl Registration {
     /// participation does not change, because it is its program's last request.
     pub fn corrupt(&mut self, random: &mut Random) {
         if let Some(own) = &mut self.own {
-            own.ticket = random.bits();
+            own.ticket = ticket(random);
             own.announcements = random.bits() >> random.below(32);
             own.gathers_until = time(random);
         }
@@ -23,17 +24,22 @@ impl Registration {
                 .collect()
         };
         let (unknown, garbled, suspects, members) = (some(), some(), some(), some());
+        for (&peer, known) in self.peers.iter().filter(|(peer, _)| garbled.contains(peer)) {
+            let over = Ticket {
+                number: random.bits() >> random.below(32),
+                ..known.ticket
+            };
+            self.past.ends(peer, over);
+        }
         self.peers.retain(|peer, _| !unknown.contains(peer));
         for (peer, known) in &mut self.peers {
             if garbled.contains(peer) {
                 *known = Peer {
-                    ticket: random.bits(),
+                    ticket: ticket(random),
                     led_by: random.chance(0.5).then(|| RobotId(random.below(8))),
+                    hears: random.chance(0.5),
                 };
             }
-        }
-        for peer in garbled {
-            self.ended.insert(peer, random.bits());
         }
         self.suspects = suspects;
         self.shunned.retain(|_, _| random.chance(0.5));
@@ -64,6 +70,13 @@ impl Registration {
         self.due = random.chance(0.5).then(|| time(random));
         self.announces_at = time(random);
         self.failed = random.chance(0.5);
+    }
+}
+
+fn ticket(random: &mut Random) -> Ticket {
+    Ticket {
+        life: random.bits(),
+        number: random.bits(),
     }
 }
 

@@ -13,9 +13,9 @@
 //!
 //! These guarantees hold whatever the network does and whichever robots crash and restart, as long as
 //! state is not corrupted:
-//! - agreement: lists with the same time and coordinator are equal. The times of any two lists with a
-//!   common robot are at least [`Options::settle`] apart (the thesis's d), so lists whose times are nearer
-//!   are equal or disjoint;
+//! - agreement: lists with the same name are equal. The times of any two lists with a
+//!   robot in common, in one life of it, are at least [`Options::settle`] apart (the thesis's d). Lists of
+//!   different coordinators never have the same time;
 //! - exclusion: two robots that list each other, both still in the life in which they are listed, show the
 //!   same list or one of them shows none;
 //! - soundness: a robot is in a list only if it was registered when it accepted that list, which is after
@@ -46,6 +46,7 @@ mod proposing;
 mod repairing;
 mod roster;
 mod stage;
+mod ticket;
 
 pub use options::Options;
 pub use packet::ViewId;
@@ -59,6 +60,7 @@ use stage::{Leaving, Own, Stage};
 use starl_core::event::RegistrationEvent;
 use starl_core::random::hash_key;
 use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
+use ticket::{Past, Ticket};
 
 /// Times beyond this, 146 years, are not valid.
 const LATEST: Time = Time(u64::MAX >> 2);
@@ -71,14 +73,16 @@ pub struct Registration {
     incarnation: Incarnation,
     /// Counts this life's registrations.
     registrations: u32,
+    /// How often others took a registration for over that was not.
+    renewals: u32,
     /// The robot's own registration.
     own: Option<Own>,
     /// Its last registration, as long as others may not know that it is over.
     leaving: Option<Leaving>,
     /// Other participants that it knows of.
     peers: BTreeMap<RobotId, Peer>,
-    /// The last ticket of each robot that is over for certain.
-    ended: BTreeMap<RobotId, u32>,
+    /// The registrations of others that are over for certain.
+    past: Past,
     /// Those that did not answer.
     shunned: BTreeMap<RobotId, Shunned>,
     suspects: BTreeSet<RobotId>,
@@ -113,10 +117,11 @@ impl Registration {
             options,
             incarnation: Incarnation::default(),
             registrations: 0,
+            renewals: 0,
             own: None,
             leaving: None,
             peers: BTreeMap::new(),
-            ended: BTreeMap::new(),
+            past: Past::default(),
             shunned: BTreeMap::new(),
             suspects: BTreeSet::new(),
             stage: Stage::Open,
@@ -217,10 +222,13 @@ impl Registration {
     }
 
     /// A ticket that this robot never had.
-    fn draw_ticket(&mut self, robot: &mut Robot<'_>) -> u32 {
-        self.registrations = self.registrations.wrapping_add(1);
+    fn draw_ticket(&mut self, robot: &mut Robot<'_>) -> Ticket {
+        self.registrations = self.registrations.saturating_add(1);
         let incarnation = u64::from(self.incarnation.of(robot));
-        hash_key(incarnation, &[u64::from(self.registrations)]) as u32
+        Ticket {
+            life: hash_key(incarnation, &[u64::from(self.renewals)]) as u32,
+            number: self.registrations,
+        }
     }
 
     fn timer(&self, alarm: Alarm) -> TimerKey {

@@ -1,5 +1,6 @@
 //! The messages between robots about participants.
 
+use super::ticket::Ticket;
 use alloc::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use starl_core::event::agreement::ListId;
@@ -34,9 +35,8 @@ pub(super) const NO_VIEW: ViewId = ViewId {
     incarnation: 0,
 };
 
-/// Robots with their tickets. A ticket names one registration of a robot: it draws another one each time
-/// that it registers.
-pub(super) type Roll = BTreeMap<RobotId, u32>;
+/// Robots with their tickets.
+pub(super) type Roll = BTreeMap<RobotId, Ticket>;
 
 /// A list of participants (the view of group membership protocols).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -68,15 +68,15 @@ pub(super) enum Packet {
     /// All have agreed.
     Commit(ViewId),
     /// The sender's registration with this ticket is over.
-    Leave { ticket: u32 },
+    Leave { ticket: Ticket },
     /// The receiver's registration with this ticket counts as over.
-    Over { ticket: u32 },
+    Over { ticket: Ticket },
 }
 
 /// A participant's announcement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Announcement {
-    pub ticket: u32,
+    pub ticket: Ticket,
     /// Its neighbourhood; none for the whole fleet.
     pub area: Option<Area>,
     /// Where it is, metres.
@@ -88,5 +88,5 @@ pub(super) struct Announcement {
     /// How often it has announced itself since it last showed a list.
     pub count: u32,
     /// The robot whose list it waits for.
-    pub waits_for: Option<(RobotId, u32)>,
+    pub waits_for: Option<(RobotId, Ticket)>,
 }

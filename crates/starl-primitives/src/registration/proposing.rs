@@ -1,21 +1,29 @@
 //! The coordinator's part of an agreement: proposing a list, collecting acceptances, announcing the
 //! result.
 //!
-//! Invariant: a list is committed only when all in it have accepted it.
+//! Invariants:
+//! - a list is committed only when all in it have accepted it;
+//! - lists of different coordinators never have the same time, and those of one life of a coordinator rise. Its next
+//!   life makes no list before `gather` has passed, and no list is dated further ahead than that, unless clocks differ
+//!   by more than `longest_timeout`. Then two lives may date lists alike by chance.
 
 use super::packet::{Packet, Roll, View, ViewId};
 use super::{Alarm, Registration, Stage};
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use starl_core::event::RegistrationEvent;
-use starl_core::{Destination, Duration, Robot, RobotId};
+use starl_core::{Destination, Duration, Robot, RobotId, Time};
+
+/// The remainder of a list's time by this number of nanoseconds, about a millisecond, is the coordinator's number. So
+/// lists of different coordinators differ in their times.
+const COORDINATORS: u64 = 1 << 20;
 
 impl Registration {
     /// Computes a list, if a new one is needed and this robot is the coordinator.
     pub(super) fn look(&mut self, robot: &mut Robot<'_>) {
         let Some(own) = &self.own else { return };
         let left = own.gathers_until.since(robot.now());
-        if matches!(self.stage, Stage::Open) && !left.is_zero() {
+        if !left.is_zero() {
             let left = left.min(self.options.gather);
             return self.look_within(robot, left);
         }
@@ -29,10 +37,28 @@ impl Registration {
         }
     }
 
-    fn propose(&mut self, robot: &mut Robot<'_>, roll: Roll) {
+    /// The time of a list that this robot computes now.
+    fn next_time(&mut self, robot: &mut Robot<'_>) -> Time {
         self.hear_time(self.promised.time);
+        let mut earliest = robot.now().max(self.latest + self.apart());
+        if earliest > robot.now() + self.options.gather + self.options.longest_timeout {
+            // An earlier life of this robot may have continued from the same list.
+            let spread = self.apart().seconds() * robot.random().uniform();
+            earliest += Duration::from_seconds_f64(spread);
+        }
+        let own = u64::from(robot.id().0) % COORDINATORS;
+        let later = (own + COORDINATORS - earliest.0 % COORDINATORS) % COORDINATORS;
+        earliest + Duration(later)
+    }
+
+    fn propose(&mut self, robot: &mut Robot<'_>, roll: Roll) {
+        let time = self.next_time(robot);
+        let early = time.since(robot.now() + self.options.gather);
+        if !early.is_zero() && early <= self.options.longest_timeout {
+            return self.look_within(robot, early);
+        }
         let id = ViewId {
-            time: robot.now().max(self.latest + self.apart()),
+            time,
             coordinator: robot.id(),
             incarnation: self.incarnation.of(robot),
         };

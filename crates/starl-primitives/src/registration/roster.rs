@@ -5,15 +5,19 @@
 //! if there is none, it is the robot with the least number.
 
 use super::packet::{Packet, Roll, ViewId};
+use super::ticket::Ticket;
 use super::{Registration, Stage};
+use alloc::vec::Vec;
 use starl_core::{Destination, Duration, Robot, RobotId, Time};
 
 /// Another participant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peer {
-    pub ticket: u32,
+    pub ticket: Ticket,
     /// The coordinator of the last list that it was known to show.
     pub led_by: Option<RobotId>,
+    /// Whether it has shown that it hears this robot, since this one last gained or lost a list.
+    pub hears: bool,
 }
 
 /// A robot that did not answer: it is not asked again for a while, so that one that is heard but cannot
@@ -70,18 +74,27 @@ impl Registration {
         &mut self,
         robot: &Robot<'_>,
         peer: RobotId,
-        ticket: u32,
+        ticket: Ticket,
         led_by: Option<RobotId>,
     ) -> bool {
         let (now, longest) = (robot.now(), self.longest_shunned());
         let shunned = self.shunned.get(&peer);
         let is_shunned =
             shunned.is_some_and(|shunned| now < shunned.until && shunned.until <= now + longest);
-        if is_shunned || self.ended.get(&peer) == Some(&ticket) {
+        if is_shunned || self.past.is_over(peer, ticket) {
             return false;
         }
-        let before = self.peers.insert(peer, Peer { ticket, led_by });
-        before.is_none_or(|before| before.ticket != ticket)
+        self.past.begins(peer, ticket);
+        let before = self.peers.get(&peer);
+        let before = before.filter(|before| before.ticket == ticket);
+        let (is_news, hears) = (before.is_none(), before.is_some_and(|before| before.hears));
+        let known = Peer {
+            ticket,
+            led_by,
+            hears,
+        };
+        self.peers.insert(peer, known);
+        is_news
     }
 
     /// Others report participants. Returns whether this is new.
@@ -142,14 +155,25 @@ impl Registration {
         self.shunned.insert(peer, shunned);
     }
 
+    /// Leaves out all robots together that do not show that they hear this one. To wait for each of them in turn takes
+    /// longer than a robot is left out, and those that register meanwhile would be waited for as well.
+    pub(super) fn shun_deaf(&mut self, robot: &mut Robot<'_>) {
+        let deaf = self.peers.iter().filter(|(_, known)| !known.hears);
+        let deaf: Vec<RobotId> = deaf.map(|(&peer, _)| peer).collect();
+        for peer in deaf {
+            self.shun(robot, peer);
+        }
+        self.open(robot, Duration::ZERO);
+    }
+
     /// How long a robot is left out at most.
     fn longest_shunned(&self) -> Duration {
         self.options.longest_interval * (2 << MOST_DOUBLINGS)
     }
 
     /// A registration of another robot is over.
-    pub(super) fn end(&mut self, robot: &mut Robot<'_>, peer: RobotId, ticket: u32) {
-        self.ended.insert(peer, ticket);
+    pub(super) fn end(&mut self, robot: &mut Robot<'_>, peer: RobotId, ticket: Ticket) {
+        self.past.ends(peer, ticket);
         if self
             .peers
             .get(&peer)
@@ -160,7 +184,7 @@ impl Registration {
     }
 
     /// Informs one robot, or all, that a registration of this one is over.
-    pub(super) fn deny(&self, robot: &mut Robot<'_>, to: Destination, ticket: u32) {
+    pub(super) fn deny(&self, robot: &mut Robot<'_>, to: Destination, ticket: Ticket) {
         robot.transmit(to, self.port, &Packet::Leave { ticket });
     }
 
@@ -180,10 +204,12 @@ impl Registration {
     }
 
     /// Another robot takes this one's registration for over, which it is not.
-    pub(super) fn register_anew(&mut self, robot: &mut Robot<'_>, ticket: u32) {
+    pub(super) fn register_anew(&mut self, robot: &mut Robot<'_>, ticket: Ticket) {
         if self.own.as_ref().is_none_or(|own| own.ticket != ticket) {
             return;
         }
+        // Only numbers of another life are later than each number that a corruption may have set.
+        self.renewals = self.renewals.wrapping_add(1);
         let ticket = self.draw_ticket(robot);
         if let Some(own) = &mut self.own {
             own.ticket = ticket;

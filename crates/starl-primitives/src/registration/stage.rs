@@ -1,13 +1,14 @@
 //! Where a robot stands: whether it takes part or has left, and how far the agreement is.
 
 use super::packet::View;
+use super::ticket::Ticket;
 use alloc::collections::BTreeSet;
 use starl_core::{Area, RobotId, Time};
 
 /// A registration of this robot.
 #[derive(Clone, Debug)]
 pub(super) struct Own {
-    pub ticket: u32,
+    pub ticket: Ticket,
     pub area: Option<Area>,
     /// Until then it listens for others.
     pub gathers_until: Time,
@@ -17,7 +18,7 @@ pub(super) struct Own {
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leaving {
-    pub ticket: u32,
+    pub ticket: Ticket,
     pub repetitions: u32,
 }
 

@@ -6,8 +6,9 @@ use crate::harness::registrar::{
     Registrar, agree, judge, list, register, registration, unregister,
 };
 use crate::harness::{Wire, World};
-use starl_core::{Duration, Random, RobotId};
+use starl_core::{Duration, Input, Message, Port, Random, RobotId, Time};
 use starl_primitives::registration::Options;
+use std::collections::BTreeSet;
 
 const SECOND: Duration = Duration::from_seconds(1);
 const PERIOD: Option<Duration> = Some(Duration::from_millis(100));
@@ -207,5 +208,77 @@ fn clocks_that_are_off() {
         checked(&world, &[]);
         let shown = registration(&world, 0).view_id();
         assert!(shown.is_none_or(|id| id.coordinator <= RobotId(3)));
+    }
+}
+
+/// Messages that arrive several seconds late named registrations before the last one of their robot. These were
+/// believed again, and each held up the others until its robot denied it.
+#[test]
+fn late_messages_bring_back_no_registration_that_is_over() {
+    let mut world = world(2, 1, Wire::perfect(), false);
+    world.command(0, register());
+    let announced = world.payloads().last().cloned().expect("an announcement");
+    world.run_for(SECOND);
+    world.command(1, register());
+    for command in [unregister(), register(), unregister()] {
+        world.run_for(SECOND * 2);
+        world.command(0, command);
+    }
+    world.run_for(SECOND * 12);
+    assert!(agree(&world, &[1]));
+    let shown = registration(&world, 1).view_id();
+    let late = Message {
+        from: RobotId(0),
+        port: Port::named("who"),
+        payload: announced,
+    };
+    for _ in 0..100 {
+        world.input(1, &Input::Message(late.clone()));
+        world.run_for(SECOND / 50);
+        assert_eq!(registration(&world, 1).view_id(), shown);
+    }
+}
+
+/// A robot that hears the others and is not heard waited for each of them in turn, longer than it left the first of
+/// them out, so that it waited for that one again. It also waited for each that registered again.
+#[test]
+fn a_robot_that_is_not_heard_shows_a_list_of_itself() {
+    for count in [3, 5, 10] {
+        for (seed, is_busy) in [(0, false), (1, false), (2, true), (3, true)] {
+            let mut world = world(count, seed, Wire::perfect(), is_busy);
+            let last = count - 1;
+            for other in 0..last {
+                world.wire.cut.insert((last as u32, other as u32));
+                world.command(other, register());
+            }
+            world.run_for(SECOND * 2);
+            let (begun, mut without) = (world.now, Duration::ZERO);
+            while world.now.since(begun) < SECOND * 300 && without < SECOND * 25 {
+                let is_new = !registration(&world, last).is_registered();
+                world.command(last, register());
+                world.run_for(SECOND / 10);
+                let shows = list(&world, last).is_some();
+                without = without + SECOND / 10;
+                if is_new || shows {
+                    without = Duration::ZERO;
+                }
+            }
+            assert!(without < SECOND * 25, "{count} robots, seed {seed}");
+        }
+    }
+}
+
+/// Two coordinators dated their lists alike to the nanosecond. A robot that had restarted was in both lists, in one
+/// with each of its lives.
+#[test]
+fn lists_of_two_coordinators_never_have_the_same_time() {
+    for seed in 0..20 {
+        let mut world = world(4, seed, Wire::perfect(), false);
+        (0..4).for_each(|robot| world.wire.isolate(robot, 4));
+        (0..4).for_each(|robot| world.command(robot, register()));
+        world.run_for(SECOND);
+        let times = (0..4).filter_map(|robot| registration(&world, robot).agreed_at());
+        let times: BTreeSet<Time> = times.collect();
+        assert_eq!(times.len(), 4, "{times:?}");
     }
 }

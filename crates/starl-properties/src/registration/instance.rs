@@ -152,6 +152,10 @@ impl Instance {
             let text = format!("robot {robot} shows a list without itself");
             found.push(Violation::new(SOUNDNESS, at, [robot], text));
         }
+        for both in self.in_two_lists(id, members) {
+            let text = format!("robot {both} is in two lists of {}", id.time);
+            found.push(Violation::new(AGREEMENT, at, [robot, both], text));
+        }
         for &other in members.iter().filter(|other| **other != robot) {
             if self.exclude_each_other(robot, id, other) {
                 let text =
@@ -160,6 +164,22 @@ impl Instance {
             }
         }
         is_doubtful
+    }
+
+    /// The members of this list that are in a list of the same time by another coordinator, with any of their lives.
+    fn in_two_lists(&self, id: ListId, members: &[RobotId]) -> Vec<RobotId> {
+        let first = ListId {
+            coordinator: RobotId(0),
+            incarnation: 0,
+            ..id
+        };
+        let others = self.lists.range(first..);
+        let others = others.take_while(|(other, _)| other.time == id.time);
+        let others =
+            others.filter(|(other, list)| other.coordinator != id.coordinator && !list.is_doubtful);
+        let theirs = others.filter_map(|(_, other)| other.members.as_ref());
+        let of_both = theirs.flatten().filter(|robot| members.contains(robot));
+        of_both.copied().collect()
     }
 
     /// Whether the other robot shows a different list than this one, and each lists the other's present

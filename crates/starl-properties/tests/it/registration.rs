@@ -93,6 +93,26 @@ fn two_lists_of_one_name() {
     assert_eq!(properties(&story), ["registration.agreement"]);
 }
 
+/// Neither is wrong by itself: the robot is in each list with another of its lives.
+#[test]
+fn a_robot_in_two_lists_of_one_time() {
+    let mut story = robots(2);
+    agree(&mut story, 400, (400, 0, &[0, 1]));
+    story.fault(1000, Some(1), "crash");
+    story.fault(1100, Some(1), "restart");
+    registers(&mut story, 1200, 1);
+    registers(&mut story, 1200, 2);
+    agree(&mut story, 1400, (400, 2, &[1, 2]));
+    let expected = ["registration.agreement"; 2];
+    assert_eq!(properties(&story)[..2], expected);
+    // A list without it may have the same time.
+    let mut story = robots(3);
+    agree(&mut story, 400, (400, 0, &[0, 1]));
+    agree(&mut story, 400, (400, 2, &[2]));
+    leaves(&mut story, 500, 2);
+    assert_eq!(properties(&story), [""; 0]);
+}
+
 #[test]
 fn lists_too_near_to_each_other() {
     let mut story = robots(2);
