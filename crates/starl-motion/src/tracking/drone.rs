@@ -38,16 +38,19 @@ const FLYING: u32 = 1;
 const POSITION_GAIN: f64 = 1.2;
 /// Acceleration per error of velocity, 1/s.
 const VELOCITY_GAIN: f64 = 2.8;
+/// The velocity is extrapolated by this time, seconds, because the present tilt continues to act until the drone has
+/// tilted anew.
+const TILTING_TIME: f64 = 0.1;
 /// Both poles of the observer, 1/s, where estimates are seldom. A quicker one strays less in gusts, but gaps between estimates
 /// make it overshoot.
 const SLOWEST_OBSERVER: f64 = 2.5;
 /// The same where they are frequent. A quicker one strays less still, until noise of the velocity moves the drone.
-const QUICKEST_OBSERVER: f64 = 8.0;
-/// The time between estimates up to which they are frequent, seconds; at 1.8 times that they are seldom.
+const QUICKEST_OBSERVER: f64 = 12.0;
+/// The time between estimates up to which they are frequent, seconds; at 1.7 times that they are seldom.
 const FREQUENT: f64 = 0.05;
 /// Where estimates are frequent, the push is extrapolated by this time, seconds, at the rate at which it changes: so long
 /// the drone takes to notice it and to tilt.
-const LEAD: f64 = 0.25;
+const LEAD: f64 = 0.3;
 /// The push is taken to be at most this many times what the drone can hold against.
 const MOST_PUSH: f64 = 1.5;
 /// Seconds for which the push has to exceed what the drone can hold against until it counts as overpowered:
@@ -124,7 +127,8 @@ impl Gains {
 
         let push = self.observe(tracking, estimate, period);
         let desired = self.desired_velocity(position, goal);
-        let error = (desired - estimate.twist.linear).at_height(0.0);
+        let gained = (self.own_acceleration(estimate) + tracking.push) * TILTING_TIME;
+        let error = (desired - estimate.twist.linear - gained).at_height(0.0);
         let acceleration = error * VELOCITY_GAIN + desired * self.drag - push;
         let (sin, cos) = sincos(yaw);
         let tilt = shortened(acceleration, self.strength()) / self.gravity;
@@ -167,7 +171,7 @@ impl Gains {
             None => velocity,
         };
         let often = (FREQUENT / period).min(1.0);
-        let rate = (QUICKEST_OBSERVER * often * often).max(SLOWEST_OBSERVER);
+        let rate = (QUICKEST_OBSERVER * often * often * often).max(SLOWEST_OBSERVER);
         let keep = exp(-rate * period);
         let surprise = velocity - expected;
         let change = surprise * ((1.0 - keep) * (1.0 - keep) / period);
