@@ -39,7 +39,7 @@ const POSITION_GAIN: f64 = 1.2;
 /// Acceleration per error of velocity, 1/s.
 const VELOCITY_GAIN: f64 = 2.8;
 /// The velocity is extrapolated by this time, seconds, because the present tilt continues to act until the drone has
-/// tilted anew.
+/// the next one.
 const TILTING_TIME: f64 = 0.1;
 /// Both poles of the observer, 1/s, where estimates are seldom. A quicker one strays less in gusts, but gaps between estimates
 /// make it overshoot.
