@@ -302,14 +302,20 @@ fn giving_up_is_excused_only_near_a_fault() {
     assert_only(&story.verdict(90_000), property, 45_000, &[0, 0, 1, 2]);
 }
 
+/// Three robots that have delivered the same messages; then these crash and restart.
+fn ordered_with_restarts(robots: &[u32]) -> Story {
+    let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+    for &robot in robots {
+        story.fault(2000, Some(robot), "crash");
+        story.fault(2100, Some(robot), "restart");
+    }
+    story
+}
+
 #[test]
 fn a_robot_that_is_down_excuses_only_where_others_have_crashed_too() {
     let crashed = |others: &[u32]| {
-        let mut story = ordered([[(0, 1), (1, 1)]; 3]);
-        for &robot in others {
-            story.fault(2000, Some(robot), "crash");
-            story.fault(2100, Some(robot), "restart");
-        }
+        let mut story = ordered_with_restarts(others);
         story.fault(2200, Some(2), "crash");
         sends(&mut story, 40_000, 0, 2, "total");
         story
@@ -328,11 +334,7 @@ fn a_robot_that_is_down_excuses_only_where_others_have_crashed_too() {
 #[test]
 fn a_robot_that_is_apart_excuses_only_where_another_has_crashed() {
     let cut = |crashed: &[u32]| {
-        let mut story = ordered([[(0, 1), (1, 1)]; 3]);
-        for &robot in crashed {
-            story.fault(2000, Some(robot), "crash");
-            story.fault(2100, Some(robot), "restart");
-        }
+        let mut story = ordered_with_restarts(crashed);
         story.fault(2200, None, "partition");
         story.sends(2300, 0, 1, 1);
         story.sends(2400, 1, 0, 1);
