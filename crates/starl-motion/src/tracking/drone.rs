@@ -4,10 +4,12 @@
 //! proportional; acceleration to tilt is geometry. A disturbance observer (Luenberger 1971, "An
 //! introduction to observers") estimates other forces on the drone than its own tilt and drag in still
 //! air, such as wind, and compensates them. Unlike the integral of a PID loop it does not wind up
-//! while the drone accelerates and brakes, which would make it overshoot. The drone's own speed loop
-//! controls the vertical motion. The thesis names such a controller (section 4.3) but gives none.
+//! while the drone accelerates and brakes, which would make it overshoot. Tilting takes time, so what
+//! acts is extrapolated: the velocity by the present acceleration, and the other forces by their rate
+//! of change. The drone's own speed loop controls the vertical motion. The thesis names such a
+//! controller (section 4.3) but gives none.
 
-use super::{Goal, Tracking};
+use super::{Goal, Moment, Tracking};
 use starl_core::math::{self, atan, exp, sincos, tan};
 use starl_core::motion::Estimate;
 use starl_core::{Command, Point, Pose};
@@ -38,13 +40,19 @@ const FLYING: u32 = 1;
 const POSITION_GAIN: f64 = 1.2;
 /// Acceleration per error of velocity, 1/s.
 const VELOCITY_GAIN: f64 = 2.8;
+/// The velocity is extrapolated by this time, seconds, because the present tilt continues to act until the drone has
+/// the next one.
+const TILTING_TIME: f64 = 0.1;
 /// Both poles of the observer, 1/s, where estimates are seldom. A quicker one strays less in gusts, but gaps between estimates
 /// make it overshoot.
 const SLOWEST_OBSERVER: f64 = 2.5;
-/// The same where they are frequent; noise moves a drone by a tenth more then.
-const QUICKEST_OBSERVER: f64 = 8.0;
-/// The time between estimates up to which they are frequent, seconds; at twice that they are seldom.
+/// The same where they are frequent. A quicker one strays less still, until noise of the velocity moves the drone.
+const QUICKEST_OBSERVER: f64 = 12.0;
+/// The time between estimates up to which they are frequent, seconds; at 1.7 times that they are seldom.
 const FREQUENT: f64 = 0.05;
+/// Where estimates are frequent, the push is extrapolated by this time, seconds, at the rate at which it changes: so long
+/// the drone takes to notice it and to tilt.
+const LEAD: f64 = 0.3;
 /// The push is taken to be at most this many times what the drone can hold against.
 const MOST_PUSH: f64 = 1.5;
 /// Seconds for which the push has to exceed what the drone can hold against until it counts as overpowered:
@@ -81,8 +89,13 @@ impl Gains {
         tracking.overpowered >= OVERPOWERED_AFTER
     }
 
-    /// By tilt and by drag in still air.
+    /// By tilt and by drag in still air, at a steady height.
     fn own_acceleration(&self, estimate: &Estimate) -> Point {
+        self.tilting(estimate) - estimate.twist.linear.at_height(0.0) * self.drag
+    }
+
+    /// The part of the acceleration that the tilt causes, at a steady height.
+    fn tilting(&self, estimate: &Estimate) -> Point {
         let Pose {
             yaw, pitch, roll, ..
         } = estimate.pose;
@@ -91,8 +104,7 @@ impl Gains {
             tan(pitch) * self.gravity,
             tan(roll) / math::cos(pitch) * self.gravity,
         );
-        let tilting = Point::planar(cos * ahead + sin * aside, sin * ahead - cos * aside);
-        tilting - estimate.twist.linear.at_height(0.0) * self.drag
+        Point::planar(cos * ahead + sin * aside, sin * ahead - cos * aside)
     }
 
     /// One step of tracking.
@@ -115,10 +127,11 @@ impl Gains {
         }
         tracking.phase = FLYING;
 
-        self.observe(tracking, estimate, period);
-        let desired = self.desired_velocity(position, goal);
-        let error = (desired - estimate.twist.linear).at_height(0.0);
-        let acceleration = error * VELOCITY_GAIN + desired * self.drag - tracking.push;
+        let push = self.observe(tracking, estimate, period);
+        let (desired, change) = self.desired_velocity(estimate, goal);
+        let gained = (self.own_acceleration(estimate) + tracking.push) * TILTING_TIME;
+        let error = (desired - estimate.twist.linear - gained).at_height(0.0);
+        let acceleration = error * VELOCITY_GAIN + change + desired * self.drag - push;
         let (sin, cos) = sincos(yaw);
         let tilt = shortened(acceleration, self.strength()) / self.gravity;
         let (ahead, aside) = (cos * tilt.x + sin * tilt.y, sin * tilt.x - cos * tilt.y);
@@ -139,41 +152,63 @@ impl Gains {
         let period = tracking.period(estimate);
         match estimate.pose.position.z < 0.5 * self.lowest {
             true => tracking.interrupt(),
-            false => self.observe(tracking, estimate, period),
+            false => drop(self.observe(tracking, estimate, period)),
         }
     }
 
-    /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to.
-    fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) {
-        let velocity = estimate.twist.linear.at_height(0.0);
-        let expected = tracking.expected_velocity.unwrap_or(velocity);
-        let often = FREQUENT / period;
-        let rate = (QUICKEST_OBSERVER * often * often).clamp(SLOWEST_OBSERVER, QUICKEST_OBSERVER);
+    /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to. Returns the push
+    /// to compensate: the one that is expected when the drone has tilted.
+    fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) -> Point {
+        let velocity = estimate.twist.linear;
+        let tilting = self.tilting(estimate);
+        let expected = match tracking.last {
+            Some(last) => {
+                // A drone that climbs faster and faster has more thrust.
+                let climb = (velocity.z - last.velocity.z) / period;
+                let thrust = 1.0 + climb / self.gravity;
+                let own = (last.tilting + tilting) * (0.5 * thrust)
+                    - (last.velocity + velocity) * (0.5 * self.drag);
+                (last.velocity + (own + tracking.push) * period).at_height(velocity.z)
+            }
+            None => velocity,
+        };
+        let often = (FREQUENT / period).min(1.0);
+        let rate = (QUICKEST_OBSERVER * often * often * often).max(SLOWEST_OBSERVER);
         let keep = exp(-rate * period);
         let surprise = velocity - expected;
-        let push = tracking.push + surprise * ((1.0 - keep) * (1.0 - keep) / period);
-        tracking.push = shortened(push, MOST_PUSH * self.strength());
+        let change = surprise * ((1.0 - keep) * (1.0 - keep) / period);
+        tracking.push = shortened(tracking.push + change, MOST_PUSH * self.strength());
         let holds = tracking.push.planar_length() <= self.strength();
         tracking.overpowered = match holds {
             true => 0.0,
             false => tracking.overpowered + period,
         };
-        let acceleration = self.own_acceleration(estimate) + tracking.push;
-        let corrected = expected + surprise * (1.0 - keep * keep);
-        tracking.expected_velocity = Some(corrected + acceleration * period);
+        tracking.last = Some(Moment {
+            velocity: expected + surprise * (1.0 - keep * keep),
+            tilting,
+        });
+        tracking.push + change * (LEAD * often / period)
     }
 
-    fn desired_velocity(&self, position: Point, goal: &Goal) -> Point {
+    /// In the floor plane, and the rate at which it changes while the drone brakes for the target.
+    fn desired_velocity(&self, estimate: &Estimate, goal: &Goal) -> (Point, Point) {
+        let position = estimate.pose.position;
         let way = (goal.target - position).at_height(0.0);
         let distance = way.planar_length();
         if distance <= 0.0 {
-            return Point::ZERO;
+            return (Point::ZERO, Point::ZERO);
         }
-        let speed = (POSITION_GAIN * distance)
+        let braking = POSITION_GAIN * distance;
+        let speed = braking
             .max(goal.through_speed(position, self.cruise_speed))
             .min(self.cruise_speed)
             .min(goal.speed_limit);
-        way * (speed / distance)
+        let change = if speed == braking {
+            estimate.twist.linear.at_height(0.0) * -POSITION_GAIN
+        } else {
+            Point::ZERO
+        };
+        (way * (speed / distance), change)
     }
 }
 

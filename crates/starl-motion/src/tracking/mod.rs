@@ -65,8 +65,17 @@ pub struct Tracking {
     push: Point,
     /// For how long the push has exceeded what the robot can hold against, seconds.
     overpowered: f64,
-    /// The velocity that the next estimate is expected to show, metres per second.
-    expected_velocity: Option<Point>,
+    /// How the robot moved at the estimate before this one, if its tracker has driven it since.
+    last: Option<Moment>,
+}
+
+/// How a robot moved at an estimate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Moment {
+    /// The velocity that it is taken to have had, metres per second.
+    velocity: Point,
+    /// The acceleration that its tilt caused, metres per second squared.
+    tilting: Point,
 }
 
 /// The time between estimates that a tracker reckons with before it has seen two, seconds.
@@ -75,7 +84,7 @@ const FIRST_PERIOD: f64 = 0.1;
 impl Tracking {
     /// For a while the robot was not driven by its tracker.
     pub(crate) fn interrupt(&mut self) {
-        self.expected_velocity = None;
+        self.last = None;
         self.overpowered = 0.0;
     }
 
