@@ -221,7 +221,9 @@ impl Ending {
         let kept = match (whole, cut) {
             (_, Err(error)) => format!("the file may be damaged: {error}"),
             (true, Ok(())) => format!("all up to {now} is kept in it"),
-            (false, Ok(())) => format!("everything that fitted until {now} is kept in it"),
+            (false, Ok(())) => {
+                format!("the run had come to {now}; its beginning, as far as it fits, is kept")
+            }
         };
         Failure::file(
             path,
