@@ -56,7 +56,7 @@ fn ballots() {
 
 #[test]
 fn leases() {
-    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (27_070, 104_659, 22));
+    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (36_566, 133_882, 22));
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn leases() {
 fn leases_that_end() {
     assert_eq!(
         explore(Algorithm::Leases, 2, 0, 0),
-        (1_388_547, 6_165_448, 30)
+        (1_429_831, 6_294_910, 30)
     );
 }
 
@@ -72,7 +72,7 @@ fn leases_that_end() {
 fn leases_with_a_crash() {
     assert_eq!(
         explore(Algorithm::Leases, 1, 0, 1),
-        (537_370, 2_116_300, 26)
+        (667_170, 2_565_803, 26)
     );
 }
 

@@ -1,8 +1,9 @@
 //! Large fleets find a leader although a third of the datagrams is lost and a fifth arrives 10 s late.
 
-use crate::harness::elector::{ALGORITHMS, Elector, by, election};
+use crate::harness::elector::{ALGORITHMS, Elector, RESIGN, by, election};
 use crate::harness::{Wire, World};
 use starl_core::Duration;
+use starl_core::event::agreement::Algorithm;
 
 const SECOND: Duration = Duration::from_seconds(1);
 const STEP: Duration = Duration::from_millis(50);
@@ -61,5 +62,35 @@ fn a_large_fleet_has_a_leader_within_the_bound_of_the_checker() {
                 assert!(longest < SECOND * 35, "{algorithm:?}, {count}: {longest}");
             }
         }
+    }
+}
+
+/// Late copies of the claims of a leader that has resigned change nothing, and robots that voted for a candidate that
+/// did not become leader do not stand at the moment at which their promises end.
+#[test]
+fn a_leader_that_resigns_is_replaced_though_its_claims_arrive_for_ten_seconds_more() {
+    let wire = Wire {
+        late: (0.3, 10_000),
+        ..late()
+    };
+    for count in [12, 20] {
+        let mut times = Vec::new();
+        for seed in 0..30 {
+            let make = Elector::eager(by(Algorithm::Leases));
+            let mut world = World::new(count, seed, wire.clone(), None, make);
+            let all: Vec<usize> = (0..count).collect();
+            times.push(led(&mut world, &all, None));
+            world.run_for(SECOND * 5);
+            let mut shown = all.iter().map(|&robot| election(&world, robot).leader());
+            let Some(leader) = shown.find_map(|leader| leader) else {
+                continue;
+            };
+            world.command(leader.index(), RESIGN);
+            times.push(led(&mut world, &all, Some(leader.index())));
+        }
+        times.sort_unstable();
+        let (median, longest) = (times[times.len() / 2], times[times.len() - 1]);
+        println!("{count} robots: median {median}, longest {longest}");
+        assert!(longest < SECOND * 25, "{count}: {longest}");
     }
 }

@@ -26,7 +26,7 @@ use super::epoch::Epoch;
 use super::options::no_later;
 use super::packet::{Claim, Packet};
 use super::rules::{Leadership, Rules, Scene};
-use claim::Standing;
+use claim::{MOST_CLAIMS, Standing};
 use recovery::Stage;
 use starl_core::{Duration, Port, Random, Robot, RobotId, Time};
 
@@ -44,6 +44,10 @@ pub(super) struct Leases {
     latest: Epoch,
     /// The latest that its robot gave up.
     voided: Epoch,
+    /// The latest that was shown and that its leader gave up.
+    over: Epoch,
+    /// The number of the last claim to the latest epoch that was shown.
+    heard: u32,
     /// The latest claim that it did not vote for, since it was bound by a promise.
     put_off: Option<(RobotId, Claim)>,
     /// While this robot stands or leads.
@@ -110,9 +114,18 @@ impl Leases {
         self.stand_at = scene.now() + Duration::from_seconds_f64(pause);
     }
 
-    /// A robot says that it leads.
-    fn follow(&mut self, scene: &mut Scene<'_, '_>, epoch: Epoch, remaining: Duration) {
-        if epoch < self.latest && scene.takes_part || self.voided == epoch {
+    /// A robot says that it leads, by a claim of this number, or first of all. A late copy does not count: it would
+    /// show a leader that is gone, and put off the next election.
+    fn follow(
+        &mut self,
+        scene: &mut Scene<'_, '_>,
+        epoch: Epoch,
+        remaining: Duration,
+        number: Option<u32>,
+    ) {
+        let is_late = epoch == self.latest && number.is_none_or(|number| self.has_heard(number));
+        let is_over = epoch == self.voided || epoch == self.over;
+        if is_late || is_over || epoch < self.latest && scene.takes_part {
             return;
         }
         let until = scene.now() + remaining.min(scene.options.term());
@@ -123,7 +136,14 @@ impl Leases {
         }
         self.candidacies = 0;
         self.latest = epoch;
+        self.heard = number.unwrap_or(0);
         self.give_up(scene);
+    }
+
+    /// Whether a claim to the latest epoch that was shown is no later than one that was heard. Numbers that are further
+    /// apart than any late copy are those of a corruption.
+    fn has_heard(&self, number: u32) -> bool {
+        self.heard.wrapping_sub(number) < MOST_CLAIMS as u32
     }
 
     /// There is no leader any more, as far as this robot knows.
@@ -140,6 +160,7 @@ impl Leases {
             &mut self.known,
             &mut self.latest,
             &mut self.voided,
+            &mut self.over,
         ] {
             if !epoch.is_plausible(now) {
                 *epoch = Epoch::default();
@@ -152,7 +173,7 @@ impl Leases {
         no_later(&mut self.up_since, now);
         no_later(&mut self.promise.until, now + options.lease);
         let spread = self.spread(scene);
-        no_later(&mut self.stand_at, now + spread);
+        no_later(&mut self.stand_at, now.max(self.promise.until) + spread);
         let me = scene.me();
         self.shown.take_if(|shown| {
             let leader = shown.epoch.leader();
@@ -193,7 +214,7 @@ impl Rules for Leases {
             Packet::Void(epoch) if is_senders(epoch) => self.released(scene, epoch),
             Packet::Lease { epoch, remaining } if is_senders(epoch) => {
                 self.learn(epoch);
-                self.follow(scene, epoch, remaining);
+                self.follow(scene, epoch, remaining, None);
             }
             Packet::Ask { attempt, up_for } => self.remember(scene, from, attempt, up_for),
             Packet::Tell(memory) if memory.promised.is_plausible(now) => {
@@ -266,6 +287,8 @@ impl Rules for Leases {
         self.known = Epoch::random(random);
         self.latest = Epoch::random(random);
         self.voided = Epoch::random(random);
+        self.over = Epoch::random(random);
+        self.heard = random.bits();
         if let Some((_, claim)) = &mut self.put_off {
             (claim.epoch, claim.number) = (Epoch::random(random), random.bits());
         }

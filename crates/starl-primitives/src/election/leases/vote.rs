@@ -18,7 +18,7 @@ impl Leases {
         self.notice_candidacy(scene, epoch);
         self.learn(epoch);
         if !claim.remaining.is_zero() {
-            self.follow(scene, epoch, claim.remaining);
+            self.follow(scene, epoch, claim.remaining, Some(claim.number));
         }
         if !scene.takes_part {
             return;
@@ -36,13 +36,19 @@ impl Leases {
         }
         // Of two that stand at once the later epoch goes first.
         self.give_up(scene);
-        self.promise = Promise {
-            epoch,
-            until: scene.now() + scene.options.lease,
-        };
+        self.bind(scene, epoch);
         self.put_off.take_if(|(_, other)| other.epoch <= epoch);
         let number = claim.number;
         scene.send(from, Packet::Grant { epoch, number });
+    }
+
+    /// Promises the vote. The rest of the pause before this robot's own candidacy begins when the promise ends:
+    /// otherwise it would outbid a candidate that had to wait for the same promise.
+    fn bind(&mut self, scene: &Scene<'_, '_>, epoch: Epoch) {
+        let (now, before) = (scene.now(), self.promise.until);
+        let until = now + scene.options.lease;
+        self.stand_at = until + self.stand_at.since(before.max(now));
+        self.promise = Promise { epoch, until };
     }
 
     /// The epoch because of which this robot does not vote for another.
@@ -72,6 +78,9 @@ impl Leases {
     pub(super) fn released(&mut self, scene: &mut Scene<'_, '_>, epoch: Epoch) {
         self.learn(epoch);
         self.voided = epoch;
+        if epoch == self.latest {
+            self.over = epoch;
+        }
         self.put_off.take_if(|(_, claim)| claim.epoch == epoch);
         if self.promise.epoch == epoch {
             self.promise.until = Time::ZERO;

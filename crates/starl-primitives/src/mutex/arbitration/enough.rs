@@ -91,3 +91,32 @@ impl Request {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::common::RequestId;
+    use super::super::super::{Options, Resources};
+    use super::*;
+    use starl_core::Port;
+
+    #[test]
+    fn grants_that_have_ended_do_not_count_towards_a_majority() {
+        let id = RequestId {
+            incarnation: 1,
+            number: 1,
+        };
+        let arbiters = (0..3).map(RobotId).collect();
+        let mut request = Request::new(id, 1, Resources::new(), 0, arbiters);
+        let common = Common::new(Port::named("mutex"), None, Options::default());
+        let enough = Enough::Majority(2, Duration::from_seconds(2));
+        let after = |seconds| Time::ZERO + Duration::from_seconds_f64(seconds);
+        for (arbiter, until) in [(0, 5.0), (1, 6.0)] {
+            let asked = request.asked.get_mut(&RobotId(arbiter));
+            asked.expect("it was asked").granted = Some((after(until), 7));
+        }
+        let mut may_enter =
+            |now| request.may_enter(after(now), enough, &common, &mut Post::default());
+        assert_eq!(may_enter(4.5), Some((7, after(5.0))));
+        assert_eq!(may_enter(5.5), None);
+    }
+}

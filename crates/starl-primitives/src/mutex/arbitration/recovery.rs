@@ -218,3 +218,24 @@ impl Begun {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_to_an_earlier_question_does_not_count() {
+        let (now, lease) = (Time::ZERO, Duration::from_seconds(2));
+        let others = [RobotId(1), RobotId(2)];
+        let mut recovery = Recovery::default();
+        recovery.begin(5, now, false);
+        assert!(others.iter().all(|&peer| recovery.hear(peer, 5, None)));
+        assert!(recovery.ends_stage(now, &others, lease));
+        assert!(!others.iter().any(|&peer| recovery.hear(peer, 5, None)));
+        let outlook = recovery.outlook(now, &others, Some(lease));
+        assert_eq!(outlook, Outlook::Unready);
+        assert!(others.iter().all(|&peer| recovery.hear(peer, 6, None)));
+        let outlook = recovery.outlook(now, &others, Some(lease));
+        assert_eq!(outlook, Outlook::Ready);
+    }
+}
