@@ -1,9 +1,10 @@
 //! The parameters of a scenario, as values of the types that a program declares.
 
-use crate::parameters::{Complaint, complaint, describe};
+use crate::parameters::{complaint, describe};
 use starl_core::{Point, Time};
 use starl_lang::machine::{self, Bytecode, ObjectType, Type, Value};
 use starl_lang::robot::{Code, RobotProgram};
+use starl_sim::engine::Complaint;
 use starl_sim::read::suggest;
 use starl_sim::scenario::{Fleet, Group, Parameter};
 

@@ -2,7 +2,7 @@
 //! Values that do not match are refused, with the place in the scenario and a suggested fix.
 
 use starl_catalog::{Application, Refusal};
-use starl_core::{Duration, Time};
+use starl_core::{Duration, FileError, Time};
 use starl_lang::machine::Value;
 use starl_lang::robot::RobotProgram;
 use starl_sim::read::{Loader, Request, Source};
@@ -29,10 +29,10 @@ idle()
 struct OneFile(String);
 
 impl Loader for OneFile {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match path {
             "settings.starl" => Ok(self.0.clone().into_bytes()),
-            _ => Err("there is no such file".to_string()),
+            _ => Err(FileError::Missing),
         }
     }
 }

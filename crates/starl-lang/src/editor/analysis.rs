@@ -3,7 +3,8 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::describe::{Description, describe};
+use super::describe::describe;
+use super::description::Description;
 use super::index::{Index, Occurrence, headers};
 use crate::check::{Checked, Libraries, Symbol, check};
 use crate::compile::problems;

@@ -3,8 +3,7 @@
 //! Invariant: `scalars` holds `length * width` words and `objects` `length * object_width` objects;
 //! `held` is the sum of the sizes of `objects`.
 
-use crate::machine::interpreter::scalar::bits;
-use crate::machine::types::{Layout, Order, Parts};
+use crate::machine::types::{Layout, Order, Parts, bits};
 use crate::machine::value::object::{Object, WORD};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
