@@ -4,7 +4,7 @@ use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
 use crate::diagnostic::Span;
-use crate::ir::{Local, LocalId, RecordId};
+use crate::ir::{Local, LocalId};
 
 impl Checker {
     /// Records the meaning of a name in the current file.
@@ -17,13 +17,6 @@ impl Checker {
     pub fn resolve_entity(&mut self, span: Span, entity: Entity) {
         if let Some(symbol) = entity.symbol() {
             self.resolve(span, symbol);
-        }
-    }
-
-    /// The same for a field of a record; the part of a tuple is declared nowhere.
-    pub fn resolve_field(&mut self, span: Span, record: RecordId, field: u32) {
-        if !self.program[record].is_tuple() {
-            self.resolve(span, Symbol::Field(record, field));
         }
     }
 

@@ -136,8 +136,9 @@ fn field(checked: &Checked, id: RecordId, number: u32) -> Description {
     let Some(field) = record.fields.get(number as usize) else {
         return Description::default();
     };
+    let of = checked.program.type_name(&Type::Record(id));
     let ty = checked.program.type_name(&field.ty);
-    let text = format!("{}.{}: {ty}", record.name, field.name);
+    let text = format!("{of}.{}: {ty}", field.name);
     let node = node_at(checked, field.site).filter(|_| !record.is_tuple());
     let node = node.and_then(|node| node.ancestors().find_map(ast::Field::cast));
     Description::new(
