@@ -8,6 +8,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use starl_core::FileError;
 use starl_sim::read::{self, Loader, Override, Place, Request, Source};
 
 /// Whatever path is asked for: an image if its name ends like one, else the world file.
@@ -17,7 +18,7 @@ struct Files<'a> {
 }
 
 impl Loader for Files<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let image = path.ends_with("pgm") || path.ends_with("png");
         Ok(if image { self.image } else { self.world }.to_vec())
     }

@@ -1,5 +1,6 @@
 //! Files of the disk, for front ends that have one.
 
+use starl_core::FileError;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -7,7 +8,7 @@ use std::path::Path;
 /// Larger files are not scenarios, programs, world files or images.
 const LARGEST: u64 = 256 << 20;
 
-/// The content of a file, or why it cannot be read, in words.
+/// The content of a file.
 ///
 /// # Errors
 /// If there is no such file, it is a folder or a device, is larger than 256 MiB, or cannot be read.
@@ -15,7 +16,7 @@ const LARGEST: u64 = 256 << 20;
     clippy::disallowed_methods,
     reason = "only front ends that have a disk hand this in"
 )]
-pub fn read(path: &Path) -> Result<Vec<u8>, String> {
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let read = || {
         let mut bytes = Vec::new();
         // Opening a pipe would wait for its writer.
@@ -28,9 +29,12 @@ pub fn read(path: &Path) -> Result<Vec<u8>, String> {
             .read_to_end(&mut bytes)?;
         Ok(bytes)
     };
-    let bytes = read().map_err(|error: io::Error| reason(&error))?;
+    let bytes = read().map_err(|error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => FileError::Missing,
+        _ => FileError::Unreadable(reason(&error)),
+    })?;
     match bytes.len() as u64 > LARGEST {
-        true => Err("it is larger than 256 MiB".to_string()),
+        true => Err(FileError::Unreadable("it is larger than 256 MiB".into())),
         false => Ok(bytes),
     }
 }

@@ -3,6 +3,7 @@
 //! To add an example, write its folder under `examples/` and a line in [`EXAMPLES`].
 
 use crate::language::SUFFIX;
+use starl_core::FileError;
 use starl_sim::read::{Loader, Source};
 
 /// An example: a scenario and the files that it names.
@@ -236,7 +237,7 @@ const GLOBAL: &str = "example:";
 pub(crate) struct WithExamples<'a>(pub &'a dyn Loader);
 
 impl Loader for WithExamples<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let found = self.0.load(path);
         let global = path
             .strip_prefix(GLOBAL)
@@ -244,7 +245,10 @@ impl Loader for WithExamples<'_> {
         match (found, global) {
             (Err(_), Some((name, path))) => match find(name) {
                 Some(example) => example.load(path),
-                None => Err(format!("there is no example {name:?}")),
+                None => {
+                    let reason = format!("there is no example {name:?}");
+                    Err(FileError::Unreadable(reason))
+                }
             },
             (found, _) => found,
         }
@@ -269,10 +273,10 @@ impl Example {
 }
 
 impl Loader for Example {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match self.files.iter().find(|file| file.0 == path) {
             Some(file) => Ok(file.1.to_vec()),
-            None => Err("the example has no such file".to_string()),
+            None => Err(FileError::Missing),
         }
     }
 }

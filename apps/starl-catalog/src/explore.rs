@@ -28,9 +28,9 @@ impl Application {
         let scenario = self.scenario();
         let mut members = Vec::new();
         for (index, group) in scenario.fleet.groups.iter().enumerate() {
-            let program = self.program(group).map_err(|message| StartError {
+            let program = self.program(group).map_err(|complaint| StartError {
                 group: index,
-                message,
+                complaint,
             })?;
             members.extend(group.starts.iter().map(|&pose| Member {
                 program: program.clone(),

@@ -18,5 +18,5 @@ pub mod session;
 mod start;
 pub mod trial;
 
-pub use parameters::{Complaint, Parameters};
+pub use parameters::Parameters;
 pub use start::{Application, Refusal, read};

@@ -2,19 +2,9 @@
 //! that no program asks for are reported, not ignored.
 
 use starl_core::Duration;
+use starl_sim::engine::Complaint;
 use starl_sim::scenario::Parameter;
 use std::collections::BTreeMap;
-
-/// An error in a program's name or parameters.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Complaint {
-    /// The field below the group or the scenario: `program` or `parameters.vicinity`.
-    pub field: String,
-    /// The error.
-    pub message: String,
-    /// The suggested fix.
-    pub help: String,
-}
 
 /// The parameters given to one program, taken one by one.
 pub struct Parameters<'a> {

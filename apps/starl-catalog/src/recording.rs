@@ -10,6 +10,7 @@ use starl_sim::Scenario;
 use starl_sim::read::{Content, Inputs, Override, Request, Resolved, Source};
 use starl_trace::{Header, RobotEntry};
 use std::collections::BTreeMap;
+use thiserror::Error;
 
 /// The file, among those in the trace, that says what the command line changed.
 const OPTIONS: &str = "options.json";
@@ -53,12 +54,25 @@ pub fn header(resolved: &Resolved, setting: &Setting) -> Header {
     }
 }
 
+/// Why a recorded run cannot be run again.
+#[derive(Debug, Error)]
+pub enum NoInputs {
+    /// The trace comes from a host that records none.
+    #[error("it holds no {OPTIONS}")]
+    Missing,
+    /// They are not as this version writes them.
+    #[error("{OPTIONS}: {0}")]
+    Malformed(#[from] serde_json::Error),
+}
+
 /// The inputs of the run that a trace with this header records.
-pub fn inputs(header: &Header) -> Result<Inputs, String> {
+///
+/// # Errors
+/// The trace holds no inputs, or others than this version reads.
+pub fn inputs(header: &Header) -> Result<Inputs, NoInputs> {
     let options = header.files.get(OPTIONS);
-    let options = options.ok_or_else(|| format!("it holds no {OPTIONS}"))?;
-    let options: Options =
-        serde_json::from_str(options).map_err(|error| format!("{OPTIONS}: {error}"))?;
+    let options = options.ok_or(NoInputs::Missing)?;
+    let options: Options = serde_json::from_str(options)?;
     let kept = header.files.iter().filter_map(|(name, text)| {
         let path = name.strip_prefix(FILES)?;
         let content = match options.binary.iter().any(|binary| binary == path) {

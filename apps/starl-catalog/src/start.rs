@@ -5,11 +5,10 @@
 
 use crate::examples::WithExamples;
 use crate::language::{Findings, Programs};
-use crate::parameters::Complaint;
 use crate::programs::Registry;
 use starl_core::{Program, RobotId};
 use starl_lang::diagnostic::Colour;
-use starl_sim::engine::StartError;
+use starl_sim::engine::{Complaint, StartError};
 use starl_sim::read::{self, Loader, Problem, Problems, Request, Resolved};
 use starl_sim::scenario::{Fleet, Goal, Group};
 use starl_sim::{Run, Scenario, Simulation};
@@ -136,10 +135,7 @@ impl Application {
             false => Vec::new(),
         };
         let fleet = scenario.fleet.clone();
-        let mut run = Run::new(scenario, &|group| {
-            let made = self.make(group, &fleet);
-            made.map_err(|complaint| complaint.message)
-        })?;
+        let mut run = Run::new(scenario, &|group| self.make(group, &fleet))?;
         monitors
             .into_iter()
             .for_each(|monitor| run.add_monitor(monitor));
@@ -163,15 +159,23 @@ impl Application {
     /// # Errors
     /// Fails if the robot does not exist; otherwise only with errors that [`read()`] has found
     /// before.
-    pub fn program_of(&self, robot: RobotId) -> Result<Box<dyn Program>, String> {
+    pub fn program_of(&self, robot: RobotId) -> Result<Box<dyn Program>, Complaint> {
         let group = self.scenario().fleet.group_of(robot);
-        let (group, _) = group.ok_or_else(|| format!("there is no robot {robot}"))?;
+        let (group, _) = group.ok_or_else(|| Complaint {
+            field: "robots".into(),
+            message: format!("there is no robot {robot}"),
+            help: String::new(),
+        })?;
         self.program(group)
     }
 
-    pub(crate) fn program(&self, group: &Group) -> Result<Box<dyn Program>, String> {
-        let made = self.make(group, &self.scenario().fleet);
-        made.map_err(|complaint| complaint.message)
+    pub(crate) fn program(&self, group: &Group) -> Result<Box<dyn Program>, Complaint> {
+        self.make(group, &self.scenario().fleet)
+    }
+
+    /// The place of a program that cannot be started, and why.
+    pub fn problem(&self, error: StartError) -> Problem {
+        blame(&self.resolved, error.group, error.complaint)
     }
 
     fn make(&self, group: &Group, fleet: &Fleet) -> Result<Box<dyn Program>, Complaint> {

@@ -46,7 +46,8 @@ impl Campaign {
             most_trials,
         };
         let subject = py.detach(|| Subject::new(&application, false));
-        let subject = subject.map_err(|error| PyValueError::new_err(error.message))?;
+        let subject = subject
+            .map_err(|error| PyValueError::new_err(application.problem(error).to_string()))?;
         Ok(Campaign {
             campaign: starl_sweep::Campaign::new(vec![subject], settings),
             global_names,

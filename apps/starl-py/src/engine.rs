@@ -76,7 +76,7 @@ impl Engine {
         let table = self.with(py, simulation, |session| {
             Table::of_records(session.records(), topic)
         })?;
-        table.map_err(PyValueError::new_err)
+        Ok(table?)
     }
 }
 
@@ -104,7 +104,7 @@ impl Engine {
         run: impl FnOnce(&mut Session) -> T + Send,
     ) -> PyResult<T> {
         let done = py.detach(|| self.service().session(simulation).map(run));
-        done.map_err(PyValueError::new_err)
+        done.map_err(|refused| PyValueError::new_err(refused.message))
     }
 
     fn service(&self) -> MutexGuard<'_, Service> {

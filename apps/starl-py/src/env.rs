@@ -1,6 +1,5 @@
 //! Environments for learning: batches of worlds, whose results are written to arrays of the caller.
 
-use crate::judge::Judge;
 use numpy::{
     PyReadonlyArray1, PyReadonlyArray3, PyReadwriteArray1, PyReadwriteArray2, PyReadwriteArray3,
     PyReadwriteArray4,
@@ -18,6 +17,13 @@ pub struct Batch {
     pub batch: starl_env::Batch,
     /// None if one thread does all.
     pool: Option<ThreadPool>,
+}
+
+/// The compiled expressions of a task, and what its quantities were before.
+#[pyclass(module = "starl._native")]
+pub struct Judge {
+    pub judge: starl_env::Judge,
+    pub memory: Vec<u64>,
 }
 
 /// A model's name, and its parameters that are not at their defaults.

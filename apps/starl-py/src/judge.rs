@@ -1,18 +1,11 @@
 //! The expressions of a task: rewards, ends and measures in the StarL language.
 
-use crate::env::{Batch, refused};
+use crate::env::{Batch, Judge, refused};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::json;
 use starl_env::{Column, Constant, Kind, Wording, WordingError};
 use starl_lang::diagnostic::{Colour, Diagnostic, LineIndex, render};
-
-/// The compiled expressions of a task, and what its quantities were before.
-#[pyclass(module = "starl._native")]
-pub struct Judge {
-    pub judge: starl_env::Judge,
-    pub memory: Vec<u64>,
-}
 
 #[pymethods]
 impl Judge {

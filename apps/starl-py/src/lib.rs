@@ -30,7 +30,7 @@ mod _native {
     #[pymodule_export]
     use super::env::Batch;
     #[pymodule_export]
-    use super::judge::Judge;
+    use super::env::Judge;
     #[pymodule_export]
     use super::robot::Draws;
     #[pymodule_export]

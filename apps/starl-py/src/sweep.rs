@@ -8,6 +8,7 @@ use pyo3::types::PyBytes;
 use serde_json::json;
 use starl_catalog::disk;
 use starl_catalog::programs::Registry;
+use starl_core::FileError;
 use starl_sim::read::{Inputs, Loader};
 use starl_sweep::{Axis, Error, Format, Journal, Measured, Plan, Runner, Seeds, Summary};
 use std::collections::BTreeMap;
@@ -178,7 +179,7 @@ impl Sweep {
     /// The rows as a table.
     fn table(&self) -> PyResult<Table> {
         let table = starl_sweep::Table::of(&self.plan, &self.state().rows);
-        Table::of_sweep(table).map_err(PyValueError::new_err)
+        Ok(Table::of_sweep(table)?)
     }
 
     /// The summary of each combination, in JSON.
@@ -216,7 +217,7 @@ struct Beside<'a> {
 }
 
 impl Loader for Beside<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         self.inputs
             .load(path)
             .or_else(|_| disk::read(&self.folder.join(path)))

@@ -10,7 +10,7 @@ use arrow_array::{
     Array, ArrayRef, BooleanArray, Float64Array, Int64Array, PrimitiveArray, RecordBatch,
     RecordBatchIterator, StringArray, UInt32Array,
 };
-use arrow_schema::{Field, Schema};
+use arrow_schema::{ArrowError, Field, Schema};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -21,6 +21,7 @@ use starl_sweep::Values;
 use starl_trace::Topic;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// Rows of records.
 #[pyclass(frozen, module = "starl._native")]
@@ -91,6 +92,21 @@ impl Table {
     }
 }
 
+/// Why records are no table.
+#[derive(Debug, Error)]
+pub enum TableError {
+    #[error("the records: {0}")]
+    Records(#[from] serde_json::Error),
+    #[error(transparent)]
+    Columns(#[from] ArrowError),
+}
+
+impl From<TableError> for PyErr {
+    fn from(error: TableError) -> PyErr {
+        PyValueError::new_err(error.to_string())
+    }
+}
+
 /// The topic of this name, which may leave out the prefix of all topics.
 pub fn topic(name: &str) -> PyResult<Topic> {
     let short = |topic: &Topic| topic.name().trim_start_matches("/starl/");
@@ -112,7 +128,7 @@ impl Table {
     pub fn of_records<'a>(
         records: impl Iterator<Item = &'a Record>,
         topic: Option<Topic>,
-    ) -> Result<Table, String> {
+    ) -> Result<Table, TableError> {
         let chosen =
             records.filter(|record| topic.is_none_or(|topic| Topic::of(&record.event) == topic));
         match topic {
@@ -124,7 +140,7 @@ impl Table {
 
 impl Table {
     /// The rows of a sweep.
-    pub fn of_sweep(table: starl_sweep::Table) -> Result<Table, String> {
+    pub fn of_sweep(table: starl_sweep::Table) -> Result<Table, TableError> {
         let columns = table.columns.into_iter().map(|column| {
             let values: ArrayRef = match column.values {
                 Values::Whole(values) => Arc::new(Int64Array::from(values)),
@@ -169,7 +185,7 @@ impl Head {
 }
 
 /// Poses are most of a trace: they do not take the way through JSON.
-fn poses<'a>(records: impl Iterator<Item = &'a Record>) -> Result<Table, String> {
+fn poses<'a>(records: impl Iterator<Item = &'a Record>) -> Result<Table, TableError> {
     const NAMES: [&str; 6] = ["x", "y", "z", "yaw", "pitch", "roll"];
     let mut head = Head::default();
     let mut numbers: [Float64Builder; 6] = std::array::from_fn(|_| Float64Builder::new());
@@ -201,11 +217,13 @@ fn pose(event: &Event) -> Option<Pose> {
 }
 
 /// Every member a column, or the whole content one column of JSON.
-fn members<'a>(records: impl Iterator<Item = &'a Record>, whole: bool) -> Result<Table, String> {
+fn members<'a>(
+    records: impl Iterator<Item = &'a Record>,
+    whole: bool,
+) -> Result<Table, TableError> {
     let records: Vec<&Record> = records.collect();
     let json = starl_trace::json_list(records.iter().copied());
-    let rows: Vec<Value> =
-        serde_json::from_slice(&json).map_err(|error| format!("the records: {error}"))?;
+    let rows: Vec<Value> = serde_json::from_slice(&json)?;
     let mut head = Head::default();
     let mut values: BTreeMap<String, Vec<Option<Value>>> = BTreeMap::new();
     for (index, (record, row)) in records.iter().zip(rows).enumerate() {
@@ -297,12 +315,11 @@ where
     Arc::new(PrimitiveArray::<T>::from(values))
 }
 
-fn table(columns: Vec<(String, ArrayRef)>) -> Result<Table, String> {
+fn table(columns: Vec<(String, ArrayRef)>) -> Result<Table, TableError> {
     let field = |(name, column): &(String, ArrayRef)| {
         Field::new(name.clone(), column.data_type().clone(), true)
     };
     let schema = Schema::new(columns.iter().map(field).collect::<Vec<_>>());
     let columns = columns.into_iter().map(|(_, column)| column).collect();
-    let batch = RecordBatch::try_new(Arc::new(schema), columns);
-    batch.map(Table).map_err(|error| error.to_string())
+    Ok(Table(RecordBatch::try_new(Arc::new(schema), columns)?))
 }

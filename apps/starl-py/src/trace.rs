@@ -5,9 +5,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use starl_core::{Event, Record};
-use starl_trace::{Header, Reader};
+use starl_trace::{Header, Reader, TraceError};
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{self, BufReader};
+use thiserror::Error;
 
 /// A trace that was read.
 #[pyclass(frozen, module = "starl._native")]
@@ -74,14 +75,21 @@ impl Trace {
     #[pyo3(signature = (topic=None))]
     fn records(&self, py: Python<'_>, topic: Option<&str>) -> PyResult<Table> {
         let topic = topic.map(table::topic).transpose()?;
-        let table = py.detach(|| Table::of_records(self.records.iter(), topic));
-        table.map_err(PyValueError::new_err)
+        Ok(py.detach(|| Table::of_records(self.records.iter(), topic))?)
     }
 }
 
-fn read(path: &str) -> Result<Trace, String> {
-    let file = File::open(path).map_err(|error| format!("cannot be read: {error}"))?;
-    let mut reader = Reader::new(BufReader::new(file)).map_err(|error| error.to_string())?;
+/// Why a trace cannot be read at all.
+#[derive(Debug, Error)]
+enum Unreadable {
+    #[error("cannot be read: {0}")]
+    File(#[from] io::Error),
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+}
+
+fn read(path: &str) -> Result<Trace, Unreadable> {
+    let mut reader = Reader::new(BufReader::new(File::open(path)?))?;
     let mut records = Vec::new();
     let mut end = Value::Null;
     for record in &mut reader {

@@ -86,7 +86,7 @@ impl Campaign {
         let subject = |target: &Target| -> Result<Subject, Error> {
             let application = read(&target.inputs.request, &target.inputs, registry)?;
             let subject = Subject::with_span(&application, target.demands_goal, target.span);
-            subject.map_err(|error| start_error(&application, &error))
+            subject.map_err(|error| start_error(&application, error))
         };
         let subjects: Result<Vec<Subject>, Error> = plan.targets.iter().map(subject).collect();
         Ok(Campaign::new(subjects?, plan.settings))

@@ -3,18 +3,20 @@
 use starl_catalog::Refusal;
 use starl_catalog::disk::reason;
 use starl_sim::read::{Place, Problem};
-use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Why a sweep cannot be planned, run or written. Each displays as a message for the person who asked for it.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The scenario or a program has errors with the fields of some combination.
+    #[error("{0}")]
     Refused(Box<Refusal>),
     /// An axis, the seeds or the profile are not as they should be.
+    #[error("{0}")]
     Problem(Problem),
     /// A file cannot be read or written as asked.
+    #[error("{}: {message}", path.display())]
     File {
         /// The file.
         path: PathBuf,
@@ -54,15 +56,3 @@ impl From<Refusal> for Error {
         Error::Refused(Box::new(refusal))
     }
 }
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Error::Refused(refusal) => write!(f, "{refusal}"),
-            Error::Problem(problem) => write!(f, "{problem}"),
-            Error::File { path, message } => write!(f, "{}: {message}", path.display()),
-        }
-    }
-}
-
-impl std::error::Error for Error {}

@@ -1,6 +1,5 @@
 //! A row: the result of one run.
 
-use crate::Task;
 use serde::{Deserialize, Serialize};
 use starl_core::event::{PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{Event, Record};
@@ -82,7 +81,7 @@ impl Counts {
 
 impl Row {
     /// The row of a run that is over.
-    pub(crate) fn of(run: &Run, task: &Task, counts: Counts) -> Row {
+    pub(crate) fn of(run: &Run, (number, seed): (u64, u64), counts: Counts) -> Row {
         let simulation = run.simulation();
         let outcome = run.outcome();
         let goal_reached = matches!(outcome, Outcome::Reached | Outcome::Violated);
@@ -102,8 +101,8 @@ impl Row {
             counts.sum()
         };
         Row {
-            number: task.number,
-            seed: task.seed,
+            number,
+            seed,
             outcome: outcome.word().to_string(),
             goal_reached,
             violated,

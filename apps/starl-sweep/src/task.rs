@@ -113,7 +113,7 @@ impl Runner {
         let prepared = prepared.as_ref().map_err(again)?;
         let Prepared { application, span } = prepared;
         let run = application.run_of(scenario(task, *span)?);
-        let mut run = run.map_err(|error| start_error(application, &error))?;
+        let mut run = run.map_err(|error| start_error(application, error))?;
         Ok(finish(&mut run, task, stop))
     }
 
@@ -138,7 +138,7 @@ impl Runner {
             Some(_) => {
                 let subject = trial::Subject::new(&application, false);
                 subject
-                    .map_err(|error| start_error(&application, &error))?
+                    .map_err(|error| start_error(&application, error))?
                     .span()
             }
         };
@@ -159,10 +159,8 @@ fn scenario(task: &Task, span: Duration) -> Result<Scenario, Error> {
 }
 
 /// Names the place of a program that cannot be started.
-pub(crate) fn start_error(application: &Application, error: &StartError) -> Error {
-    let field = format!("robots.{}.program", error.group);
-    let resolved = application.resolved();
-    Error::Problem(resolved.problem(&field, &error.message, None))
+pub(crate) fn start_error(application: &Application, error: StartError) -> Error {
+    Error::Problem(application.problem(error))
 }
 
 /// The profile of this name.
@@ -187,7 +185,7 @@ fn finish(run: &mut Run, task: &Task, stop: &AtomicBool) -> Option<Row> {
         run.advance();
         counts.observe(run.simulation().records());
     }
-    Some(Row::of(run, task, counts))
+    Some(Row::of(run, (task.number, task.seed), counts))
 }
 
 /// The same error again, for another task of a combination.

@@ -3,6 +3,7 @@
 use starl_catalog::programs::Registry;
 use starl_catalog::read;
 use starl_catalog::trial::{Answers, Shrinking, Subject};
+use starl_core::FileError;
 use starl_sim::Finding;
 use starl_sim::profile::Profile;
 use starl_sim::read::{Loader, Request, Source};
@@ -43,10 +44,10 @@ on Word(_, _)
 struct Files;
 
 impl Loader for Files {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match path {
             "hasty.starl" => Ok(HASTY.as_bytes().to_vec()),
-            _ => Err("there is no such file".to_string()),
+            _ => Err(FileError::Missing),
         }
     }
 }

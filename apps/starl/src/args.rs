@@ -1,6 +1,6 @@
 //! The command line.
 
-use crate::log::Shown;
+use crate::failure::Failure;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -9,10 +9,10 @@ const MOST_THREADS: u32 = 1_024;
 const MOST_ROBOTS: u32 = 10_000_000;
 
 /// Reads a whole number in a range, and reports the range if it is something else.
-fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
+fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, Failure> + Clone + Send + Sync {
     move |text| match text.parse() {
         Ok(number) if (low..=high).contains(&number) => Ok(number),
-        _ => Err(format!("give a whole number from {low} to {high}")),
+        _ => Err(Failure(format!("give a whole number from {low} to {high}"))),
     }
 }
 
@@ -130,6 +130,19 @@ pub struct RunArguments {
     /// The options of the page, with `open`.
     #[command(flatten)]
     pub page: PageArguments,
+}
+
+/// The levels of `--log`, from the one that shows most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Shown {
+    /// All lines.
+    Debug,
+    /// All except those for debugging; lines of programs in the StarL language have this level.
+    Info,
+    /// Lines about something that is probably wrong, and errors.
+    Warning,
+    /// Lines about something that is certainly wrong.
+    Error,
 }
 
 /// The options of the robots' log.

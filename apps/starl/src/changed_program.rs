@@ -7,7 +7,7 @@ use starl_catalog::disk;
 use starl_catalog::language::SUFFIX;
 use starl_catalog::programs::Registry;
 use starl_catalog::recording;
-use starl_core::RobotId;
+use starl_core::{FileError, RobotId};
 use starl_sim::read::{Inputs, Loader};
 use starl_trace::Header;
 use std::path::Path;
@@ -71,7 +71,7 @@ impl Changed<'_> {
 }
 
 impl Loader for Changed<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         if path == self.key {
             return Ok(self.text.clone().into_bytes());
         }

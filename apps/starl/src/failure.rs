@@ -1,10 +1,13 @@
 //! Why a command could not be carried out: exit status 2.
 
+use starl_sim::read::{Problem, Problems};
 use std::fmt;
 use std::path::Path;
+use thiserror::Error;
 
 /// One message for the user of the command: the place, the problem, and a suggested fix.
-#[derive(Debug)]
+#[derive(Debug, Error)]
+#[error("{0}")]
 pub struct Failure(pub String);
 
 impl Failure {
@@ -14,20 +17,15 @@ impl Failure {
     }
 }
 
-impl From<starl_sim::read::Problems> for Failure {
-    fn from(problems: starl_sim::read::Problems) -> Failure {
-        Failure(problems.to_string())
-    }
+/// Errors that name their place.
+macro_rules! whole {
+    ($($error:ty),*) => {$(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Failure {
+                Failure(error.to_string())
+            }
+        }
+    )*};
 }
 
-impl From<starl_sim::read::Problem> for Failure {
-    fn from(problem: starl_sim::read::Problem) -> Failure {
-        Failure(problem.to_string())
-    }
-}
-
-impl From<starl_sweep::Error> for Failure {
-    fn from(error: starl_sweep::Error) -> Failure {
-        Failure(error.to_string())
-    }
-}
+whole!(Problem, Problems, starl_sweep::Error);

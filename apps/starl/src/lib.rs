@@ -47,6 +47,7 @@ mod origin;
 mod output;
 mod outputs;
 mod paths;
+mod picture;
 mod plot;
 mod progress;
 mod replay;

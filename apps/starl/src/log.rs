@@ -1,28 +1,14 @@
 //! `--log`: shows the robots' log while they run, on the error stream.
 
-use crate::args::LogArguments;
+use crate::args::{LogArguments, Shown};
 use crate::console;
 use crate::failure::Failure;
 use crate::progress::Progress;
-use clap::ValueEnum;
 use starl_core::event::{Event, Level};
 use starl_core::{Record, RobotId};
 use starl_sim::read::suggest;
 use starl_sim::scenario::Fleet;
 use std::fmt::Write;
-
-/// The levels of `--log`, from the one that shows most.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Shown {
-    /// All lines.
-    Debug,
-    /// All except those for debugging; lines of programs in the StarL language have this level.
-    Info,
-    /// Lines about something that is probably wrong, and errors.
-    Warning,
-    /// Lines about something that is certainly wrong.
-    Error,
-}
 
 impl Shown {
     fn least(self) -> Level {

@@ -8,6 +8,7 @@ use crate::output::identity;
 use starl_catalog::disk;
 use starl_catalog::examples::Example;
 use starl_catalog::language::Findings;
+use starl_core::FileError;
 use starl_sim::read::Loader;
 #[cfg(feature = "web")]
 use std::collections::BTreeMap;
@@ -127,11 +128,11 @@ impl Origin {
 }
 
 impl Loader for Origin {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match (self.path(path), &self.scenario) {
             (Some(path), _) => disk::read(&path),
             (None, Scenario::Example(example)) => example.load(path),
-            (None, _) => Err("there is no such file".to_string()),
+            (None, _) => Err(FileError::Missing),
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::args::RunArguments;
 use crate::failure::Failure;
 use crate::output::{Output, identity};
 use crate::paths::Paths;
+use crate::picture::Picture;
 use crate::plot;
 use crate::report::Report;
 use crate::trace_output::TraceOutput;
@@ -14,39 +15,6 @@ use starl_sim::{Run, Simulation};
 use starl_trace::Outcome;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-
-/// The kinds of picture.
-#[derive(Clone, Copy)]
-pub enum Picture {
-    Svg,
-    #[cfg(feature = "png")]
-    Png,
-}
-
-impl Picture {
-    /// The kind of picture, by the file's name.
-    pub fn of(path: &Path) -> Result<Picture, Failure> {
-        Picture::given_as(path, "--plot")
-    }
-
-    /// The same for a file that another option names.
-    pub fn given_as(path: &Path, option: &str) -> Result<Picture, Failure> {
-        match path.extension().and_then(|extension| extension.to_str()) {
-            Some("svg") => Ok(Picture::Svg),
-            #[cfg(feature = "png")]
-            Some("png") => Ok(Picture::Png),
-            #[cfg(not(feature = "png"))]
-            Some("png") => Err(Failure(format!(
-                "{option} {}: this build draws no PNG; name a file ending in .svg",
-                path.display()
-            ))),
-            _ => Err(Failure(format!(
-                "{option} {}: the name must end in .svg or .png",
-                path.display()
-            ))),
-        }
-    }
-}
 
 /// The files being written.
 pub struct Outputs {

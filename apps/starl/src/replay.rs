@@ -35,16 +35,19 @@ pub fn replay(arguments: &ReplayArguments, registry: &Registry) -> Result<bool, 
     run.repeat(steered);
     let end = summary.as_ref().map(|summary| summary.outcome.end);
     let found = threads::with(threads, || compare(path, &mut run, end, records))??;
-    let verdict = match (found, &summary) {
-        (Some(found), _) => Err(tell(&found, &header)),
+    let (same, text) = match (found, &summary) {
+        (Some(found), _) => (false, tell(&found, &header)),
         (None, Some(summary)) => ending(&run, summary),
-        (None, None) => Ok(as_far_as_it_goes(&format!("{} records", grouped(records)))),
+        (None, None) => {
+            let records = format!("{} records", grouped(records));
+            (true, as_far_as_it_goes(&records))
+        }
     };
-    let (same, text) = match verdict {
-        Ok(text) => (true, text),
-        Err(text) => (false, text + &other_version(&header)),
+    let version = match same {
+        true => String::new(),
+        false => other_version(&header),
     };
-    let text = text + &missing_end(cut.as_ref());
+    let text = text + &version + &missing_end(cut.as_ref());
     console::print(&format!("{}: {text}\n", path.display()))?;
     Ok(same)
 }
@@ -121,7 +124,7 @@ pub fn inputs(path: &Path, header: &Header, registry: &Registry) -> Result<Appli
             format!("the recorded inputs cannot be run again: {what}"),
         )
     };
-    let inputs = recording::inputs(header).map_err(because)?;
+    let inputs = recording::inputs(header).map_err(|error| because(error.to_string()))?;
     starl_catalog::read(&inputs.request, &inputs, registry)
         .map_err(|refusal| because(refusal.to_string()))
 }
@@ -157,8 +160,8 @@ fn compare(
         .map_err(|error| unreadable(path, &error))
 }
 
-/// Compares how the runs ended, once their records are the same.
-fn ending(run: &Run, summary: &Summary) -> Result<String, String> {
+/// Whether the runs ended the same, once their records are, and the words for it.
+fn ending(run: &Run, summary: &Summary) -> (bool, String) {
     let simulation = run.simulation();
     let recorded = &summary.outcome;
     let records = grouped(summary.records);
@@ -166,9 +169,10 @@ fn ending(run: &Run, summary: &Summary) -> Result<String, String> {
     let interrupted = recorded.outcome == Ending::Interrupted.word();
     let outcome = Ending::of(run, interrupted).word();
     let different = |what: &str, recorded: &str, again: &str| {
-        Err(format!(
+        let text = format!(
             "different: all {records} records agree, but not the {what}\n  recorded:  {recorded}\n  run again: {again}"
-        ))
+        );
+        (false, text)
     };
     if digest.value() != recorded.digest {
         return different(
@@ -187,7 +191,10 @@ fn ending(run: &Run, summary: &Summary) -> Result<String, String> {
     if outcome != recorded.outcome {
         return different("outcome", &recorded.outcome, outcome);
     }
-    Ok(format!("identical: {records} records, digest {digest}"))
+    (
+        true,
+        format!("identical: {records} records, digest {digest}"),
+    )
 }
 
 /// Says where two runs part.

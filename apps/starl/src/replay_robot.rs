@@ -92,7 +92,7 @@ fn program(
         }
         None => application,
     };
-    (application.program_of(robot)).map_err(|error| Failure::file(path, error))
+    (application.program_of(robot)).map_err(|complaint| Failure::file(path, complaint.message))
 }
 
 /// How far a replay came.

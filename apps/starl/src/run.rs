@@ -3,7 +3,8 @@
 use crate::args::{PageArguments, RunArguments};
 use crate::failure::Failure;
 use crate::log::Log;
-use crate::outputs::{Outputs, Picture};
+use crate::outputs::Outputs;
+use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::report::{Circumstances, Report};
 use crate::target::Selection;
@@ -72,14 +73,12 @@ pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failur
 /// A run of the application, at its start.
 pub fn start(application: &Application) -> Result<Run, Failure> {
     let run = application.run();
-    run.map_err(|error| start_error(application, &error))
+    run.map_err(|error| start_error(application, error))
 }
 
 /// Names the place of a program that cannot be started.
-pub fn start_error(application: &Application, error: &StartError) -> Failure {
-    let field = format!("robots.{}.program", error.group);
-    let resolved = application.resolved();
-    resolved.problem(&field, &error.message, None).into()
+pub fn start_error(application: &Application, error: StartError) -> Failure {
+    application.problem(error).into()
 }
 
 /// Lets the run continue to its end, or until someone stops it.

@@ -5,6 +5,7 @@ use crate::output::identity;
 use crate::target;
 use starl_catalog::disk::reason;
 use starl_catalog::examples::Example;
+use starl_core::FileError;
 use starl_lang::check::{Libraries, NoLibraries, StandardLibraries, check};
 use starl_sim::read::Loader;
 use std::cell::RefCell;
@@ -134,7 +135,7 @@ impl Libraries for Beside {
         }
     }
 
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn model(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match &self.folder {
             Folder::Disk(folder) => starl_catalog::disk::read(&folder.join(path)),
             Folder::Example(example) => example.load(path),

@@ -9,6 +9,7 @@ use starl_catalog::examples::{self, DEFAULT_SCENARIO, EXAMPLES};
 use starl_catalog::language::{Findings, SUFFIX};
 use starl_catalog::programs::Registry;
 use starl_catalog::{Application, Refusal};
+use starl_core::{FileError, file};
 use starl_sim::read::{Inputs, Override, Request, Source, suggest};
 use std::path::{Path, PathBuf};
 
@@ -226,8 +227,12 @@ fn scenario(name: &str) -> Result<(Source, Origin), Failure> {
     Ok((Source::new(name, text(path)?), Origin::file(path)))
 }
 
-/// Neither an example nor a file of the other kind goes by this name.
+/// Neither an example nor a file of the other kind goes by this name. A path names no example.
 pub fn no_example(name: &str, other: &str) -> Failure {
+    let path = Path::new(name);
+    if name.contains('/') || path.extension().is_some() {
+        return unreadable(path, &FileError::Missing);
+    }
     let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
     let help = suggest::help(name, &names, "the examples are");
     let help = help.unwrap_or_else(|| format!("`{} list` names the examples", console::command()));
@@ -238,14 +243,19 @@ pub fn no_example(name: &str, other: &str) -> Failure {
 
 /// The text of a file.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    let bytes = disk::read(path)
-        .map_err(|error| Failure::file(path, format!("cannot be read: {error}; check the path")))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
-        let name = path.display();
-        Failure(format!(
-            "{name}:{line}: is not text in UTF-8; save it as that"
-        ))
-    })
+    let bytes = disk::read(path).map_err(|error| unreadable(path, &error))?;
+    let text = file::text(&bytes).map_err(|error| unreadable(path, &error))?;
+    Ok(text.to_string())
+}
+
+fn unreadable(path: &Path, error: &FileError) -> Failure {
+    match error {
+        FileError::NotText { line } => {
+            let name = path.display();
+            Failure(format!(
+                "{name}:{line}: is not text in UTF-8; save it as that"
+            ))
+        }
+        _ => Failure::file(path, format!("cannot be read: {error}; check the path")),
+    }
 }

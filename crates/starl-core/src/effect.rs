@@ -1,21 +1,12 @@
 //! Effects: the requests of a state machine to its host.
 
 use crate::event::{Event, Name};
-use crate::{MotionRequest, Payload, Port, RobotId, Save, TimerKey, time::Duration};
+use crate::{Destination, MotionRequest, Payload, Port, Save, TimerKey, time::Duration};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::fmt;
 use serde::{Deserialize, Serialize};
-
-/// The receivers of a transmission.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Destination {
-    /// Every robot that the network reaches, the sender left out.
-    All,
-    /// One robot.
-    Robot(RobotId),
-}
 
 /// One effect.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -19,6 +19,15 @@ pub struct Message {
     pub payload: Payload,
 }
 
+/// The receivers of a transmission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Destination {
+    /// Every robot that the network reaches, the sender left out.
+    All,
+    /// One robot.
+    Robot(RobotId),
+}
+
 impl Message {
     /// The content as a `T`, or none where the bytes are not one.
     pub fn read<T: DeserializeOwned>(&self) -> Option<T> {

@@ -5,6 +5,7 @@
 
 use crate::geometry::{HeightSpan, Obstacle, Point, Pose, Twist};
 use crate::time::Time;
+use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -190,4 +191,15 @@ pub enum MotionRequest {
     },
     /// Stop.
     Halt,
+}
+
+/// A named place given to programs as input.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WayPoint {
+    /// Its name.
+    pub name: String,
+    /// Where it is, metres.
+    pub position: Point,
+    /// A number that groups waypoints, e.g. by robot; 0 where none is given.
+    pub group: u32,
 }

@@ -54,6 +54,16 @@ impl Random {
         self.generator.next_u32()
     }
 
+    /// The next 64 random bits.
+    pub fn word(&mut self) -> u64 {
+        u64::from(self.bits()) << 32 | u64::from(self.bits())
+    }
+
+    /// A whole number of any order of magnitude: small ones are as likely as great ones.
+    pub fn magnitude(&mut self) -> u64 {
+        self.word() >> self.below(64)
+    }
+
     /// The next 128 bits, without drawing them. Streams with equal bits have equal further numbers in practice, so this
     /// distinguishes streams.
     pub fn preview(&self) -> u128 {

@@ -6,23 +6,12 @@ use crate::message::{self, Message, Payload};
 use crate::motion::{Body, Obstacles, PlanRequest};
 use crate::{
     Command, Destination, Duration, Effect, Estimate, Event, Input, MotionRequest, Point, Port,
-    Random, RobotId, Save, Saved, Sensors, Time, TimerKey,
+    Random, RobotId, Save, Saved, Sensors, Time, TimerKey, WayPoint,
 };
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::any::Any;
-use serde::{Deserialize, Serialize};
-
-/// A named place given to programs as input.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct WayPoint {
-    /// Its name.
-    pub name: alloc::string::String,
-    /// Where it is, metres.
-    pub position: Point,
-    /// A number that groups waypoints, e.g. by robot; 0 where none is given.
-    pub group: u32,
-}
+use serde::Serialize;
 
 /// A robot's knowledge at one moment. The host fills it before each input.
 #[derive(Clone, Copy, Debug)]

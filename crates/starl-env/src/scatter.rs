@@ -2,7 +2,7 @@
 
 use starl_core::geometry::ObstacleIndex;
 use starl_core::{Point, Random};
-use std::fmt;
+use thiserror::Error;
 
 /// Where to look for places.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,25 +20,16 @@ pub struct Region {
 }
 
 /// A region has no room for all places.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "only {found} of {wanted} free places found in {TRIES} tries each; use a larger region or a smaller gap"
+)]
 pub struct NoRoom {
     /// How many places were found.
     pub found: usize,
     /// How many there should be.
     pub wanted: usize,
 }
-
-impl fmt::Display for NoRoom {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let NoRoom { found, wanted } = self;
-        write!(
-            f,
-            "only {found} of {wanted} free places found in {TRIES} tries each; use a larger region or a smaller gap"
-        )
-    }
-}
-
-impl std::error::Error for NoRoom {}
 
 /// How often a place is drawn before the region counts as full.
 const TRIES: usize = 2000;

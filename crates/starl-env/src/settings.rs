@@ -2,8 +2,8 @@
 
 use starl_core::{Duration, Obstacle};
 use starl_motion::Model;
-use std::fmt;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// The settings that the environments of a batch have in common.
 #[derive(Clone, Debug)]
@@ -63,21 +63,14 @@ pub struct Radio {
 }
 
 /// Why settings cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("`{field}`: {message}")]
 pub struct SettingsError {
     /// The setting.
     pub field: &'static str,
     /// The problem, and the values that can be used.
     pub message: String,
 }
-
-impl fmt::Display for SettingsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`: {}", self.field, self.message)
-    }
-}
-
-impl std::error::Error for SettingsError {}
 
 /// More robots than this in an environment are refused.
 const MOST_ROBOTS: usize = 10_000;

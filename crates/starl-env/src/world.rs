@@ -9,8 +9,8 @@ use starl_core::{Command, MotionRequest, Point, Pose, Random, RobotId, Time, ran
 use starl_motion::contact::{Contact, Contacts, Grid, Motions};
 use starl_motion::proximity::{Rays, Scene};
 use starl_motion::{Disturbance, Neighbour, Pilot, State};
-use std::fmt;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// The purposes of random streams.
 const PLACES: u64 = 1;
@@ -83,25 +83,14 @@ pub struct Room<'a> {
 }
 
 /// A number of an action is not finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the action of robot {robot} in environment {environment} has a number that is not finite")]
 pub struct NotFinite {
     /// The environment.
     pub environment: usize,
     /// The robot in it.
     pub robot: usize,
 }
-
-impl fmt::Display for NotFinite {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let NotFinite { environment, robot } = self;
-        write!(
-            f,
-            "the action of robot {robot} in environment {environment} has a number that is not finite"
-        )
-    }
-}
-
-impl std::error::Error for NotFinite {}
 
 impl World {
     /// Robots in a row, to be placed before anything else.

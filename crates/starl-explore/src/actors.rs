@@ -6,9 +6,8 @@
 //! robot (collapse compression: Holzmann 1997, State compression in SPIN).
 
 use crate::bounds::{Bounds, Clocks};
-use crate::code::{Code, Flying, Kind};
-use crate::moves;
-use crate::robots::{Outcome, Robots};
+use crate::code::{Code, Flying};
+use crate::robots::Outcome;
 use crate::table::{Rows, Table};
 
 /// All actors that were seen.
@@ -20,8 +19,8 @@ pub(crate) struct Actors {
     /// Datagrams in ascending order, as [`Flying`].
     mailboxes: Table,
     /// By actor; only the requested ones.
-    prospects: Vec<Option<Prospects>>,
-    moves: Vec<Move>,
+    pub prospects: Vec<Option<Prospects>>,
+    pub moves: Vec<Move>,
     /// Rows of actor and datagram.
     posted: Rows,
     /// The actors after these were sent.
@@ -32,8 +31,8 @@ pub(crate) struct Actors {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Prospects {
     /// Where its moves are.
-    begin: u32,
-    end: u32,
+    pub begin: u32,
+    pub end: u32,
     /// The actor after a tick of its clock; none if the clock cannot tick now.
     pub ticked: Option<u32>,
 }
@@ -101,28 +100,6 @@ impl Actors {
         after
     }
 
-    /// The steps that are possible for an actor, found at the first call.
-    pub fn prospects(&mut self, actor: u32, robots: &mut Robots) -> Prospects {
-        if let Some(prospects) = self.prospects[actor as usize] {
-            return prospects;
-        }
-        let begin = self.moves.len() as u32;
-        moves::find(self, actor, robots);
-        let local = self.local(actor);
-        let ticked = moves::may_tick(robots, local).then(|| {
-            let outcome = robots.turn(local, Code::robot(Kind::Tick, robots.robot(local), 0));
-            let mailbox = self.older(actor);
-            self.number(outcome.local, &mailbox)
-        });
-        let prospects = Prospects {
-            begin,
-            end: self.moves.len() as u32,
-            ticked,
-        };
-        self.prospects[actor as usize] = Some(prospects);
-        prospects
-    }
-
     /// The moves of an actor.
     pub fn moves(&self, prospects: Prospects) -> &[Move] {
         &self.moves[prospects.begin as usize..prospects.end as usize]
@@ -140,7 +117,7 @@ impl Actors {
     }
 
     /// An actor's mailbox a tick later, without the datagrams that are too old by then.
-    fn older(&self, actor: u32) -> Vec<u32> {
+    pub fn older(&self, actor: u32) -> Vec<u32> {
         let mailbox = self.mailbox(actor);
         let Clocks::Ticking {
             skew: 0,

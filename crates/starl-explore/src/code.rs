@@ -1,7 +1,5 @@
 //! Steps in one word each, since a search keeps one for every state.
 
-use crate::robots::Robots;
-use crate::step::Step;
 use starl_core::RobotId;
 
 /// A step in one word: what happens in the upper four bits, to what in the others.
@@ -102,30 +100,6 @@ impl Code {
     /// Which timer or peer.
     pub fn which(self) -> u32 {
         self.number() >> 8
-    }
-
-    /// The step in words. `local` is the state of its robot before it.
-    pub fn step(self, local: u32, robots: &Robots) -> Step {
-        let robot = RobotId(self.0 & 0xff);
-        let peer = RobotId(self.which());
-        let datagram = || robots.datagram(self.number()).clone();
-        match self.kind() {
-            Kind::Activate => Step::Activate(robot),
-            Kind::Timer => {
-                let armed = robots.state(local).timers(&robots.surroundings);
-                Step::Timer(robot, armed[self.which() as usize].0)
-            }
-            Kind::Deliver => Step::Deliver(datagram()),
-            Kind::Duplicate => Step::Duplicate(datagram()),
-            Kind::Lose => Step::Lose(datagram()),
-            Kind::Crash => Step::Crash(robot),
-            Kind::Restart => Step::Restart(robot),
-            Kind::RestartDeaf => Step::RestartDeaf(robot),
-            Kind::Suspect => Step::Suspect(robot, peer),
-            Kind::Trust => Step::Trust(robot, peer),
-            Kind::Tick => Step::Tick(robot),
-            Kind::TickAll => Step::TickAll,
-        }
     }
 
     /// The robot to which it happens; none where it happens to a datagram or to all.

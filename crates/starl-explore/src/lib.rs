@@ -22,6 +22,7 @@ mod search;
 mod step;
 mod table;
 mod texts;
+mod twins;
 mod walk;
 mod warm_up;
 mod watch;

@@ -1,10 +1,34 @@
 //! The possible next events of one robot, independent of the others.
 
-use crate::actors::Actors;
+use crate::actors::{Actors, Prospects};
 use crate::bounds::Clocks;
 use crate::code::{Code, Flying, Kind};
 use crate::robot::{Local, Surroundings};
 use crate::robots::{NOTHING, Outcome, Robots};
+
+impl Actors {
+    /// The steps that are possible for an actor, found at the first call.
+    pub fn prospects(&mut self, actor: u32, robots: &mut Robots) -> Prospects {
+        if let Some(prospects) = self.prospects[actor as usize] {
+            return prospects;
+        }
+        let begin = self.moves.len() as u32;
+        find(self, actor, robots);
+        let local = self.local(actor);
+        let ticked = may_tick(robots, local).then(|| {
+            let outcome = robots.turn(local, Code::robot(Kind::Tick, robots.robot(local), 0));
+            let mailbox = self.older(actor);
+            self.number(outcome.local, &mailbox)
+        });
+        let prospects = Prospects {
+            begin,
+            end: self.moves.len() as u32,
+            ticked,
+        };
+        self.prospects[actor as usize] = Some(prospects);
+        prospects
+    }
+}
 
 /// The timers of a robot that may fire now, by their places among those that are armed.
 pub(crate) fn ready(local: &Local, surroundings: &Surroundings) -> Vec<u32> {
@@ -26,7 +50,7 @@ pub(crate) fn ready(local: &Local, surroundings: &Surroundings) -> Vec<u32> {
 }
 
 /// Whether the clock of a robot in this state may continue.
-pub(crate) fn may_tick(robots: &Robots, local: u32) -> bool {
+fn may_tick(robots: &Robots, local: u32) -> bool {
     let Clocks::Ticking { ticks, .. } = robots.surroundings.clocks else {
         return false;
     };
@@ -35,7 +59,7 @@ pub(crate) fn may_tick(robots: &Robots, local: u32) -> bool {
 }
 
 /// Finds all moves of an actor.
-pub(crate) fn find(actors: &mut Actors, actor: u32, robots: &mut Robots) {
+fn find(actors: &mut Actors, actor: u32, robots: &mut Robots) {
     let local = actors.local(actor);
     let mailbox = actors.mailbox(actor).to_vec();
     let is_for_safety = !robots.surroundings.model.all_finish || actors.bounds.any_copies;

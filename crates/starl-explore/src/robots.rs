@@ -6,7 +6,7 @@
 use crate::code::{Code, Kind, MOST_DATAGRAMS};
 use crate::doubt::Doubt;
 use crate::robot::{Local, RobotInput, Surroundings};
-use crate::step::Datagram;
+use crate::step::{Datagram, Step};
 use crate::table::{Rows, Table};
 use crate::texts::Texts;
 use crate::watch;
@@ -215,5 +215,31 @@ impl Robots {
             self.batches.push(batch);
         }
         number
+    }
+}
+
+impl Code {
+    /// The step in words. `local` is the state of its robot before it.
+    pub fn step(self, local: u32, robots: &Robots) -> Step {
+        let robot = RobotId(self.0 & 0xff);
+        let peer = RobotId(self.which());
+        let datagram = || robots.datagram(self.number()).clone();
+        match self.kind() {
+            Kind::Activate => Step::Activate(robot),
+            Kind::Timer => {
+                let armed = robots.state(local).timers(&robots.surroundings);
+                Step::Timer(robot, armed[self.which() as usize].0)
+            }
+            Kind::Deliver => Step::Deliver(datagram()),
+            Kind::Duplicate => Step::Duplicate(datagram()),
+            Kind::Lose => Step::Lose(datagram()),
+            Kind::Crash => Step::Crash(robot),
+            Kind::Restart => Step::Restart(robot),
+            Kind::RestartDeaf => Step::RestartDeaf(robot),
+            Kind::Suspect => Step::Suspect(robot, peer),
+            Kind::Trust => Step::Trust(robot, peer),
+            Kind::Tick => Step::Tick(robot),
+            Kind::TickAll => Step::TickAll,
+        }
     }
 }

@@ -15,7 +15,7 @@ use starl_core::event::DropReason;
 use starl_core::{Destination, Event, Payload, Record, RobotId, Time, TimerKey};
 use starl_properties::Violation;
 use std::cmp::Reverse;
-use std::fmt;
+use thiserror::Error;
 
 /// A fleet on its way.
 #[derive(Clone)]
@@ -54,7 +54,8 @@ pub struct Moment {
 }
 
 /// A step that cannot be taken.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{0}")]
 pub struct Impossible(pub String);
 
 impl Walk {
@@ -365,11 +366,3 @@ fn spend(budget: &mut u8, what: &str) -> Result<(), Impossible> {
         ))),
     }
 }
-
-impl fmt::Display for Impossible {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Impossible {}

@@ -11,6 +11,7 @@ pub mod contact;
 pub mod discovery;
 pub mod model;
 pub mod models;
+pub mod neighbour;
 pub mod parameters;
 pub mod pilot;
 pub mod planning;
@@ -19,6 +20,7 @@ pub mod sensing;
 pub mod tracking;
 
 pub use model::{Disturbance, Impact, Limits, Model, State};
+pub use neighbour::Neighbour;
 pub use parameters::ParameterError;
-pub use pilot::{Neighbour, Pilot};
+pub use pilot::Pilot;
 pub use tracking::{Goal, Tracking};

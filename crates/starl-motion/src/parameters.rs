@@ -1,9 +1,10 @@
 //! Parameters of robot models: named numbers with a unit, a default and a range, from which a model
 //! is built, and which a scenario may set by name.
 
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::fmt;
+use thiserror::Error;
 
 /// One parameter of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,14 +22,18 @@ pub struct Field {
 }
 
 /// Why a model cannot be built.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum ParameterError {
     /// There is no model of this name.
+    #[error("there is no robot model `{name}`; the models are {}", quoted(known.iter().copied()))]
     UnknownModel {
         /// The name.
         name: String,
+        /// Those that there are.
+        known: Vec<&'static str>,
     },
     /// The model has no such parameter.
+    #[error("model `{model}` has no parameter `{field}`; it has {}", quoted(allowed.iter().map(|field| field.name)))]
     UnknownField {
         /// The model's name.
         model: &'static str,
@@ -38,6 +43,7 @@ pub enum ParameterError {
         allowed: &'static [Field],
     },
     /// A parameter is out of its range or not a number.
+    #[error("`{}` is {value}, but must be {} to {} {}", field.name, field.low, field.high, field.unit)]
     OutOfRange {
         /// The parameter.
         field: Field,
@@ -45,6 +51,7 @@ pub enum ParameterError {
         value: f64,
     },
     /// Two parameters contradict each other.
+    #[error("`{lesser}` must not exceed `{greater}`")]
     Inconsistent {
         /// The parameter that should be the smaller one.
         lesser: &'static str,
@@ -53,45 +60,9 @@ pub enum ParameterError {
     },
 }
 
-impl fmt::Display for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ParameterError::UnknownModel { name } => {
-                write!(f, "there is no robot model `{name}`; the models are ")?;
-                list(f, crate::models::NAMES.iter().map(|(name, _)| *name))
-            }
-            ParameterError::UnknownField {
-                model,
-                field,
-                allowed,
-            } => {
-                write!(f, "model `{model}` has no parameter `{field}`; it has ")?;
-                list(f, allowed.iter().map(|field| field.name))
-            }
-            ParameterError::OutOfRange { field, value } => {
-                let Field {
-                    name,
-                    unit,
-                    low,
-                    high,
-                    ..
-                } = field;
-                write!(f, "`{name}` is {value}, but must be {low} to {high} {unit}")
-            }
-            ParameterError::Inconsistent { lesser, greater } => {
-                write!(f, "`{lesser}` must not exceed `{greater}`")
-            }
-        }
-    }
-}
-
-impl core::error::Error for ParameterError {}
-
-fn list(f: &mut fmt::Formatter<'_>, names: impl Iterator<Item = &'static str>) -> fmt::Result {
-    for (i, name) in names.enumerate() {
-        write!(f, "{}`{name}`", if i == 0 { "" } else { ", " })?;
-    }
-    Ok(())
+fn quoted(names: impl Iterator<Item = &'static str>) -> String {
+    let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+    names.join(", ")
 }
 
 /// A set of parameters that can be set by name; [`parameters!`] writes the implementations.

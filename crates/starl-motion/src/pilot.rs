@@ -4,25 +4,12 @@
 //! put a nearer point and a limit of speed in its place; commands that the program drives itself, and
 //! standing still, do not.
 
-use crate::Model;
 use crate::avoidance::{Avoidance, Options};
 use crate::tracking::{Goal, Tracking};
+use crate::{Model, Neighbour};
 use alloc::boxed::Box;
 use starl_core::motion::Estimate;
-use starl_core::{Command, MotionRequest, Obstacle, Point, Random};
-
-/// Another robot as this one perceives it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Neighbour {
-    /// Base centre, metres.
-    pub position: Point,
-    /// Metres per second.
-    pub velocity: Point,
-    /// Metres.
-    pub radius: f64,
-    /// Metres.
-    pub height: f64,
-}
+use starl_core::{Command, MotionRequest, Obstacle, Random};
 
 /// The program's current request to the motion layer.
 #[derive(Clone, Debug, Default)]

@@ -15,7 +15,17 @@ const OLDEST_OPERATORS: i64 = 7;
 /// ONNX's number for 32-bit floats.
 const FLOAT: i64 = 1;
 
-pub fn read(bytes: &[u8]) -> Result<Network, ModelError> {
+impl Network {
+    /// Reads an ONNX file. Several inputs are joined in the order of the file, and so are outputs.
+    ///
+    /// # Errors
+    /// The file is not an ONNX file, or uses unsupported features.
+    pub fn read(bytes: &[u8]) -> Result<Self, ModelError> {
+        read(bytes)
+    }
+}
+
+fn read(bytes: &[u8]) -> Result<Network, ModelError> {
     let model = proto::Model::decode(bytes).map_err(|_| ModelError::NotOnnx)?;
     let own = model
         .operator_sets

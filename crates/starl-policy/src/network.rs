@@ -1,7 +1,5 @@
 //! A network that is ready to be evaluated.
 
-use crate::error::ModelError;
-use crate::graph;
 use crate::operation::{Operation, Place};
 use alloc::{vec, vec::Vec};
 use core::fmt;
@@ -17,14 +15,6 @@ pub struct Network {
 }
 
 impl Network {
-    /// Reads an ONNX file. Several inputs are joined in the order of the file, and so are outputs.
-    ///
-    /// # Errors
-    /// The file is not an ONNX file, or uses unsupported features.
-    pub fn read(bytes: &[u8]) -> Result<Self, ModelError> {
-        graph::read(bytes)
-    }
-
     /// How many numbers the network takes.
     pub fn inputs(&self) -> usize {
         self.inputs

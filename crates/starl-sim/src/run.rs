@@ -1,6 +1,6 @@
 //! A run from start to end: the simulation, its checkers and monitors, and the result.
 
-use crate::engine::{Programs, Simulation, StartError};
+use crate::engine::{InterventionError, Programs, Simulation, StartError};
 use crate::scenario::{Goal, Group, Scenario};
 use serde::{Deserialize, Serialize};
 use starl_core::event::{Event, Name};
@@ -100,7 +100,7 @@ impl Run {
     ///
     /// # Errors
     /// The error of the intervention.
-    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), InterventionError> {
         self.simulation.apply(at, what)
     }
 

@@ -4,6 +4,7 @@
 //! panic. Unknown members are ignored, by the version policy.
 
 use crate::Topic;
+use crate::error::Malformed;
 use crate::json::from_base64;
 use crate::wire;
 use serde::Deserialize;
@@ -12,7 +13,7 @@ use starl_core::event::{Fault, PrimitiveEvent};
 use starl_core::{Destination, Event, Intervention, Payload, Point, Port, Pose, RobotId};
 
 /// A decoded message: on which robot, and what happened. The error names the problem.
-type Decoded = Result<(Option<RobotId>, Event), String>;
+type Decoded = Result<(Option<RobotId>, Event), Malformed>;
 
 /// Reads the message of a topic that carries events.
 pub(crate) fn event(topic: Topic, text: &[u8]) -> Decoded {
@@ -39,11 +40,11 @@ pub(crate) fn event(topic: Topic, text: &[u8]) -> Decoded {
 }
 
 /// Reads JSON; the error names the place in the message.
-pub(crate) fn parse<'a, T: Deserialize<'a>>(text: &'a [u8]) -> Result<T, String> {
-    serde_json::from_slice(text).map_err(|error| error.to_string())
+pub(crate) fn parse<'a, T: Deserialize<'a>>(text: &'a [u8]) -> Result<T, Malformed> {
+    Ok(serde_json::from_slice(text)?)
 }
 
-fn pose(text: &[u8]) -> Result<(Option<RobotId>, Pose), String> {
+fn pose(text: &[u8]) -> Result<(Option<RobotId>, Pose), Malformed> {
     #[derive(Deserialize)]
     struct Message {
         robot: Option<RobotId>,
@@ -303,8 +304,7 @@ fn intervention(text: &[u8]) -> Decoded {
         robot,
         intervention,
     } = parse(text)?;
-    let intervention: Box<Intervention> =
-        serde_json::from_str(&intervention).map_err(|error| error.to_string())?;
+    let intervention: Box<Intervention> = serde_json::from_str(&intervention)?;
     if !intervention.is_valid() {
         return Err("the intervention has a place or shape that no world can have".into());
     }

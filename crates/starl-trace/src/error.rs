@@ -2,6 +2,7 @@
 
 use core::fmt;
 use starl_core::{RobotId, Time};
+use thiserror::Error;
 
 /// How far reading came before it failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,23 +28,57 @@ impl fmt::Display for Progress {
     }
 }
 
+/// Why a message or record is not what its place calls for, in words.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub(crate) struct Malformed(pub String);
+
+impl From<&str> for Malformed {
+    fn from(reason: &str) -> Malformed {
+        Malformed(reason.into())
+    }
+}
+
+impl From<serde_json::Error> for Malformed {
+    fn from(error: serde_json::Error) -> Malformed {
+        Malformed(error.to_string())
+    }
+}
+
 /// Why a trace cannot be read, or not further.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TraceError {
     /// The file is not an MCAP file.
+    #[error(
+        "not a trace: the file does not begin as an MCAP file does; give a file that `starl run --trace` wrote"
+    )]
     NotMcap,
     /// It is an MCAP file that StarL did not write.
+    #[error(
+        "not a trace of StarL: the MCAP file has no metadata record `starl` before its messages; give a file that `starl run --trace` wrote"
+    )]
     NotStarl,
     /// It has another version of the format.
+    #[error(
+        "the trace has format version {found}, this StarL reads version {}: use the StarL that wrote it, or record it again",
+        crate::FORMAT_VERSION
+    )]
     Version {
         /// The version it says it has.
         found: String,
     },
     /// It stops in the middle.
+    #[error(
+        "the trace is truncated: the file stops {0}; copy it again in full, or record it again"
+    )]
     Truncated(Progress),
     /// It is a whole file, but its writer stopped before the end of the run.
+    #[error(
+        "the trace is truncated: no end record {0}; its writer stopped before the end of the run, so record it again"
+    )]
     NoEnd(Progress),
     /// It is not as it was written.
+    #[error("the trace is damaged {progress}: {what}; copy it again, or record it again")]
     Damaged {
         /// Where.
         progress: Progress,
@@ -51,6 +86,9 @@ pub enum TraceError {
         what: String,
     },
     /// A message is not what its topic carries.
+    #[error(
+        "the trace has a bad message on {topic} at {at}, {progress}: {what}; record it again with `starl run --trace`"
+    )]
     Message {
         /// Where.
         progress: Progress,
@@ -62,6 +100,9 @@ pub enum TraceError {
         what: String,
     },
     /// A chunk is compressed in a way that this reader does not undo.
+    #[error(
+        "the trace has a chunk compressed with `{method}` {progress}: undo it with `mcap decompress`"
+    )]
     Compressed {
         /// Where.
         progress: Progress,
@@ -69,6 +110,9 @@ pub enum TraceError {
         method: String,
     },
     /// A record says that it is longer than any in a trace.
+    #[error(
+        "the trace is damaged {progress}: a record claims {length} bytes; copy it again, or record it again"
+    )]
     TooLong {
         /// Where.
         progress: Progress,
@@ -76,6 +120,7 @@ pub enum TraceError {
         length: u64,
     },
     /// The bytes could not be had.
+    #[error("the trace cannot be read {progress}: {what}")]
     Input {
         /// Where.
         progress: Progress,
@@ -90,60 +135,6 @@ impl TraceError {
         matches!(self, TraceError::Truncated(_) | TraceError::NoEnd(_))
     }
 }
-
-impl fmt::Display for TraceError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            TraceError::NotMcap => write!(
-                f,
-                "not a trace: the file does not begin as an MCAP file does; give a file that `starl run --trace` wrote"
-            ),
-            TraceError::NotStarl => write!(
-                f,
-                "not a trace of StarL: the MCAP file has no metadata record `starl` before its messages; give a file that `starl run --trace` wrote"
-            ),
-            TraceError::Version { found } => write!(
-                f,
-                "the trace has format version {found}, this StarL reads version {}: use the StarL that wrote it, or record it again",
-                crate::FORMAT_VERSION
-            ),
-            TraceError::Truncated(progress) => write!(
-                f,
-                "the trace is truncated: the file stops {progress}; copy it again in full, or record it again"
-            ),
-            TraceError::NoEnd(progress) => write!(
-                f,
-                "the trace is truncated: no end record {progress}; its writer stopped before the end of the run, so record it again"
-            ),
-            TraceError::Damaged { progress, what } => write!(
-                f,
-                "the trace is damaged {progress}: {what}; copy it again, or record it again"
-            ),
-            TraceError::Message {
-                progress,
-                topic,
-                at,
-                what,
-            } => write!(
-                f,
-                "the trace has a bad message on {topic} at {at}, {progress}: {what}; record it again with `starl run --trace`"
-            ),
-            TraceError::Compressed { progress, method } => write!(
-                f,
-                "the trace has a chunk compressed with `{method}` {progress}: undo it with `mcap decompress`"
-            ),
-            TraceError::TooLong { progress, length } => write!(
-                f,
-                "the trace is damaged {progress}: a record claims {length} bytes; copy it again, or record it again"
-            ),
-            TraceError::Input { progress, what } => {
-                write!(f, "the trace cannot be read {progress}: {what}")
-            }
-        }
-    }
-}
-
-impl core::error::Error for TraceError {}
 
 /// Why a trace cannot be written. The writer cannot be used afterwards; the trace is readable up to the last complete
 /// chunk.

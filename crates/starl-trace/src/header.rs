@@ -1,5 +1,6 @@
 //! The header of a trace: everything needed to understand and to repeat a run.
 
+use crate::error::Malformed;
 use crate::json::Json;
 use crate::{decode, encode, wire};
 use serde::Deserialize;
@@ -74,7 +75,7 @@ pub(crate) fn encode_world(json: &mut Json, header: &Header) {
 }
 
 /// Reads what [`encode_world`] wrote into the header.
-pub(crate) fn decode_world(text: &[u8], header: &mut Header) -> Result<(), String> {
+pub(crate) fn decode_world(text: &[u8], header: &mut Header) -> Result<(), Malformed> {
     #[derive(Deserialize)]
     struct Place {
         name: String,

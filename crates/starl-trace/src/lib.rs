@@ -17,6 +17,7 @@ mod fields;
 mod header;
 mod json;
 mod list;
+mod output;
 mod reader;
 mod schema;
 mod summary;

@@ -1,5 +1,6 @@
 //! How a run ended: the last record of a whole trace.
 
+use crate::error::Malformed;
 use crate::json::Json;
 use crate::{Topic, decode};
 use serde::Deserialize;
@@ -54,7 +55,7 @@ pub(crate) fn encode(json: &mut Json, summary: &Summary) {
 }
 
 /// Reads the summary's message.
-pub(crate) fn decode(text: &[u8]) -> Result<Summary, String> {
+pub(crate) fn decode(text: &[u8]) -> Result<Summary, Malformed> {
     #[derive(Deserialize)]
     struct Count {
         topic: String,
@@ -72,7 +73,7 @@ pub(crate) fn decode(text: &[u8]) -> Result<Summary, String> {
     }
     let message: Message = decode::parse(text)?;
     let digest = u64::from_str_radix(&message.digest, 16)
-        .map_err(|_| "the digest is not a hexadecimal number".to_string())?;
+        .map_err(|_| "the digest is not a hexadecimal number")?;
     Ok(Summary {
         outcome: Outcome {
             outcome: message.outcome,

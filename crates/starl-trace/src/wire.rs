@@ -3,6 +3,7 @@
 //! Each is an object in which exactly one member names its kind. They are written by hand and not derived on the core
 //! types, so that the format changes only on purpose.
 
+use crate::error::Malformed;
 use serde::Deserialize;
 use starl_core::event::MarkShape;
 use starl_core::geometry::HeightSpan;
@@ -30,20 +31,23 @@ pub(crate) struct Field {
 }
 
 /// The details of an event, in order.
-pub(crate) fn fields(list: Vec<Field>) -> Result<Fields, String> {
+pub(crate) fn fields(list: Vec<Field>) -> Result<Fields, Malformed> {
     list.into_iter()
         .map(|field| Ok((field.name.clone().into(), value(field)?)))
         .collect()
 }
 
-fn value(field: Field) -> Result<Value, String> {
+fn value(field: Field) -> Result<Value, Malformed> {
     let name = field.name;
     let special = match field.not_finite.as_deref() {
         None => None,
         Some("nan") => Some(f64::NAN),
         Some("inf") => Some(f64::INFINITY),
         Some("-inf") => Some(f64::NEG_INFINITY),
-        Some(_) => return Err(format!("`not_finite` of `{name}` is not nan, inf or -inf")),
+        Some(_) => {
+            let what = format!("`not_finite` of `{name}` is not nan, inf or -inf");
+            return Err(Malformed(what));
+        }
     };
     let candidates = [
         field.bool.map(Value::Bool),
@@ -65,7 +69,7 @@ fn value(field: Field) -> Result<Value, String> {
     let mut present = candidates.into_iter().flatten();
     match (present.next(), present.next()) {
         (Some(value), None) => Ok(value),
-        _ => Err(format!("`{name}` needs exactly one value")),
+        _ => Err(Malformed(format!("`{name}` needs exactly one value"))),
     }
 }
 
@@ -79,17 +83,17 @@ pub(crate) struct Mark {
 }
 
 impl TryFrom<Mark> for MarkShape {
-    type Error = String;
-    fn try_from(mark: Mark) -> Result<MarkShape, String> {
+    type Error = Malformed;
+    fn try_from(mark: Mark) -> Result<MarkShape, Malformed> {
         match (mark.shape.as_str(), mark.points.as_slice(), mark.radius) {
             ("nothing", [], None) => Ok(MarkShape::Nothing),
             ("dot", &[at], None) => Ok(MarkShape::Dot(at)),
             ("circle", &[center], Some(radius)) => Ok(MarkShape::Circle { center, radius }),
             ("line", _, None) => Ok(MarkShape::Line(mark.points)),
             ("text", &[at], None) => Ok(MarkShape::Text(at)),
-            (shape, ..) => Err(format!(
+            (shape, ..) => Err(Malformed(format!(
                 "`{shape}` is not a shape with these points and radius"
-            )),
+            ))),
         }
     }
 }
@@ -116,8 +120,8 @@ struct Region {
 }
 
 impl TryFrom<Region> for Area {
-    type Error = String;
-    fn try_from(region: Region) -> Result<Area, String> {
+    type Error = Malformed;
+    fn try_from(region: Region) -> Result<Area, Malformed> {
         match region {
             Region {
                 circle: Some(Circle { center, radius }),
@@ -148,8 +152,8 @@ pub(crate) struct Obstacle {
 }
 
 impl TryFrom<Obstacle> for starl_core::Obstacle {
-    type Error = String;
-    fn try_from(Obstacle { base, height }: Obstacle) -> Result<starl_core::Obstacle, String> {
+    type Error = Malformed;
+    fn try_from(Obstacle { base, height }: Obstacle) -> Result<starl_core::Obstacle, Malformed> {
         let shape = match (Area::try_from(base)?, height) {
             (Area::Circle { center, radius }, height) => Shape::Circle {
                 center,
@@ -165,13 +169,15 @@ impl TryFrom<Obstacle> for starl_core::Obstacle {
 }
 
 /// Obstacles in order.
-pub(crate) fn obstacles(list: Vec<Obstacle>) -> Result<Vec<starl_core::Obstacle>, String> {
+pub(crate) fn obstacles(list: Vec<Obstacle>) -> Result<Vec<starl_core::Obstacle>, Malformed> {
     list.into_iter().map(TryInto::try_into).collect()
 }
 
-fn polygon(points: &[Point]) -> Result<ConvexPolygon, String> {
+fn polygon(points: &[Point]) -> Result<ConvexPolygon, Malformed> {
     if points.len() > MOST_CORNERS {
-        return Err(format!("a polygon has more than {MOST_CORNERS} corners"));
+        return Err(Malformed(format!(
+            "a polygon has more than {MOST_CORNERS} corners"
+        )));
     }
-    ConvexPolygon::new(points).map_err(|error| error.to_string())
+    ConvexPolygon::new(points).map_err(|error| Malformed(error.to_string()))
 }

@@ -17,10 +17,11 @@ use reckoning::Reckoning;
 use starl_core::math::wrap_angle;
 use starl_core::{Command, Estimate, Point, Random, Time};
 use starl_motion::{Goal, State, Tracking};
-use starl_node::{Device, Reading};
+use starl_node::{Device, DeviceError, Reading};
 use std::any::Any;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
+use thiserror::Error;
 
 /// Sends bytes to where they should not be.
 pub type Interference = Box<dyn FnMut(&[u8])>;
@@ -40,8 +41,22 @@ pub struct Rig {
     pub keep: Box<dyn Any>,
 }
 
+/// Why a check has failed.
+#[derive(Debug, Error)]
+pub enum Unmet {
+    /// The driver reports an error.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// The driver reports no measurement.
+    #[error("the device measures nothing")]
+    Silent,
+    /// The robot does something else than it should.
+    #[error("{0}")]
+    Wrong(String),
+}
+
 /// A check: returns its measurement, or the reason of its failure.
-pub type Check = fn(Rig) -> Result<String, String>;
+pub type Check = fn(Rig) -> Result<String, Unmet>;
 
 /// The checks with their names.
 pub const CHECKS: [(&str, Check); 7] = [
@@ -69,35 +84,35 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// The longest that a robot may take to stop, or to land.
 const STOPPING: Duration = Duration::from_secs(5);
 
-fn drives(mut rig: Rig) -> Result<String, String> {
+fn drives(mut rig: Rig) -> Result<String, Unmet> {
     let mut reckoning = Reckoning::new(rig.body.state().pose);
     let way = travel(&mut rig, |_| Ok(()), |reading| reckoning.take(reading))?;
     let (known, truth) = (reckoning.pose(), rig.body.state().pose);
     let error = known.position.planar_distance(truth.position);
     if error > ODOMETRY * way {
-        return Err(format!(
+        return Err(Unmet::Wrong(format!(
             "after {way:.2} m odometry is off by {error:.3} m: {:?} instead of {:?}",
             known.position, truth.position
-        ));
+        )));
     }
     let turn = wrap_angle(known.yaw - truth.yaw).abs();
     if turn > ODOMETRY {
-        return Err(format!("odometry is off by {turn:.3} rad"));
+        return Err(Unmet::Wrong(format!("odometry is off by {turn:.3} rad")));
     }
     Ok(format!(
         "odometry is off by {error:.3} m and {turn:.3} rad after {way:.2} m"
     ))
 }
 
-fn stops_when_told(mut rig: Rig) -> Result<String, String> {
+fn stops_when_told(mut rig: Rig) -> Result<String, Unmet> {
     get_going(&mut rig)?;
-    rig.device.stop().map_err(text)?;
+    rig.device.stop()?;
     let from = rig.body.state();
     comes_to_rest(&rig.body, STOPPING)?;
     Ok(after(&from, &rig.body.state()))
 }
 
-fn stops_when_dropped(mut rig: Rig) -> Result<String, String> {
+fn stops_when_dropped(mut rig: Rig) -> Result<String, Unmet> {
     get_going(&mut rig)?;
     drop(rig.device);
     let from = rig.body.state();
@@ -105,7 +120,7 @@ fn stops_when_dropped(mut rig: Rig) -> Result<String, String> {
     Ok(after(&from, &rig.body.state()))
 }
 
-fn stops_when_silent(mut rig: Rig) -> Result<String, String> {
+fn stops_when_silent(mut rig: Rig) -> Result<String, Unmet> {
     let Some(watchdog) = rig.watchdog else {
         return Ok("the protocol has no watchdog".into());
     };
@@ -115,7 +130,7 @@ fn stops_when_silent(mut rig: Rig) -> Result<String, String> {
     Ok(after(&from, &rig.body.state()))
 }
 
-fn refuses(mut rig: Rig) -> Result<String, String> {
+fn refuses(mut rig: Rig) -> Result<String, Unmet> {
     let model = rig.body.model();
     let nan = f64::NAN;
     let foreign = [
@@ -142,14 +157,16 @@ fn refuses(mut rig: Rig) -> Result<String, String> {
     settle(&mut rig)?;
     for command in foreign {
         if model.accepts(&command) {
-            return Err(format!("the check is wrong: the model takes {command:?}"));
+            return Err(Unmet::Wrong(format!(
+                "the check is wrong: the model takes {command:?}"
+            )));
         }
         if rig
             .device
             .drive(&command, &estimate(&rig.body, Instant::now()))
             .is_ok()
         {
-            return Err(format!("{command:?} is not reported"));
+            return Err(Unmet::Wrong(format!("{command:?} is not reported")));
         }
         sleep(PERIOD);
     }
@@ -157,7 +174,7 @@ fn refuses(mut rig: Rig) -> Result<String, String> {
     Ok(format!("{} commands refused", foreign.len()))
 }
 
-fn noise_at_rest(mut rig: Rig) -> Result<String, String> {
+fn noise_at_rest(mut rig: Rig) -> Result<String, Unmet> {
     settle(&mut rig)?;
     let before = rig.body.state().pose;
     let mut random = Random::keyed(1, &[]);
@@ -168,12 +185,15 @@ fn noise_at_rest(mut rig: Rig) -> Result<String, String> {
         sleep(Duration::from_millis(5));
     }
     if rig.body.state().pose != before {
-        return Err(format!("it moved to {:?}", rig.body.state().pose));
+        return Err(Unmet::Wrong(format!(
+            "it moved to {:?}",
+            rig.body.state().pose
+        )));
     }
     Ok("200 pieces".into())
 }
 
-fn drives_through_noise(mut rig: Rig) -> Result<String, String> {
+fn drives_through_noise(mut rig: Rig) -> Result<String, Unmet> {
     let mut random = Random::keyed(2, &[]);
     let mut noise = std::mem::replace(&mut rig.noise, Box::new(|_| ()));
     let way = travel(
@@ -190,9 +210,9 @@ fn drives_through_noise(mut rig: Rig) -> Result<String, String> {
 /// Tracks [`WAY`] and stops. Calls `every` each period and `heard` with each reading. Returns the length of the way.
 fn travel(
     rig: &mut Rig,
-    mut every: impl FnMut(&BodyHandle) -> Result<(), String>,
+    mut every: impl FnMut(&BodyHandle) -> Result<(), Unmet>,
     mut heard: impl FnMut(&Reading),
-) -> Result<f64, String> {
+) -> Result<f64, Unmet> {
     let began = Instant::now();
     let start = rig.body.state().pose;
     let (sin, cos) = start.yaw.sin_cos();
@@ -216,7 +236,7 @@ fn travel(
                 .body
                 .model()
                 .track(&mut tracking, &estimate, &Goal::stop_at(target));
-            rig.device.drive(&command, &estimate).map_err(text)?;
+            rig.device.drive(&command, &estimate)?;
             every(&rig.body)?;
             if let Ok(Some(reading)) = rig.device.read() {
                 readings += 1;
@@ -232,25 +252,27 @@ fn travel(
                 break;
             }
             if Instant::now() > limit {
-                return Err(format!(
+                return Err(Unmet::Wrong(format!(
                     "it is at {at:?} and has not reached {target:?} within {PATIENCE:?}"
-                ));
+                )));
             }
             sleep(PERIOD);
         }
     }
     if readings < 20 {
-        return Err(format!("only {readings} readings have arrived"));
+        return Err(Unmet::Wrong(format!(
+            "only {readings} readings have arrived"
+        )));
     }
     Ok(length)
 }
 
 /// Waits for the first reading, as the runtime does before it drives.
-fn settle(rig: &mut Rig) -> Result<(), String> {
+fn settle(rig: &mut Rig) -> Result<(), Unmet> {
     let limit = Instant::now() + PATIENCE;
-    while rig.device.read().map_err(text)?.is_none() {
+    while rig.device.read()?.is_none() {
         if Instant::now() > limit {
-            return Err("the device measures nothing".into());
+            return Err(Unmet::Silent);
         }
         sleep(PERIOD);
     }
@@ -258,7 +280,7 @@ fn settle(rig: &mut Rig) -> Result<(), String> {
 }
 
 /// Drives towards a place far ahead until the robot is fast.
-fn get_going(rig: &mut Rig) -> Result<(), String> {
+fn get_going(rig: &mut Rig) -> Result<(), Unmet> {
     settle(rig)?;
     let began = Instant::now();
     let pose = rig.body.state().pose;
@@ -270,17 +292,20 @@ fn get_going(rig: &mut Rig) -> Result<(), String> {
     {
         let estimate = estimate(&rig.body, began);
         let command = model.track(&mut tracking, &estimate, &Goal::stop_at(target));
-        rig.device.drive(&command, &estimate).map_err(text)?;
+        rig.device.drive(&command, &estimate)?;
         let _ = rig.device.read();
         if began.elapsed() > PATIENCE {
-            return Err(format!("it does not drive: {:?}", rig.body.state()));
+            return Err(Unmet::Wrong(format!(
+                "it does not drive: {:?}",
+                rig.body.state()
+            )));
         }
         sleep(PERIOD);
     }
     Ok(())
 }
 
-fn comes_to_rest(body: &BodyHandle, within: Duration) -> Result<(), String> {
+fn comes_to_rest(body: &BodyHandle, within: Duration) -> Result<(), Unmet> {
     let limit = Instant::now() + within;
     while Instant::now() < limit {
         if stands(body).is_ok() {
@@ -291,15 +316,15 @@ fn comes_to_rest(body: &BodyHandle, within: Duration) -> Result<(), String> {
         }
         sleep(Duration::from_millis(10));
     }
-    Err(format!("it still moves: {:?}", body.state()))
+    Err(Unmet::Wrong(format!("it still moves: {:?}", body.state())))
 }
 
-fn stands(body: &BodyHandle) -> Result<(), String> {
+fn stands(body: &BodyHandle) -> Result<(), Unmet> {
     let twist = body.state().twist;
     if twist.linear.length() < STANDING && twist.yaw.abs() < STANDING {
         Ok(())
     } else {
-        Err(format!("it moves: {twist:?}"))
+        Err(Unmet::Wrong(format!("it moves: {twist:?}")))
     }
 }
 
@@ -321,8 +346,4 @@ fn garbage(random: &mut Random) -> Vec<u8> {
 fn after(from: &State, to: &State) -> String {
     let way = from.pose.position.planar_distance(to.pose.position);
     format!("stands after {way:.2} m")
-}
-
-fn text(error: impl ToString) -> String {
-    error.to_string()
 }

@@ -2,10 +2,10 @@
 
 use crate::{COMMAND_PORT, Frame, Message, RigidBody, Version};
 use starl_core::{Point, Pose};
-use std::fmt;
 use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 use std::time::{Duration, Instant};
+use thiserror::Error;
 
 /// Which axis of the server points up; a setting of Motive's stream.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,13 +43,16 @@ impl NatNetOptions {
 }
 
 /// The reason for missing positions.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum NatNetError {
     /// The connection failed.
-    Io(io::Error),
+    #[error("the connection failed: {0}")]
+    Io(#[from] io::Error),
     /// The server has said nothing for a second.
+    #[error("the OptiTrack server at {0} is silent; does Motive stream unicast to this machine?")]
     Silent(SocketAddr),
     /// The server does not know the body.
+    #[error("Motive has no rigid body `{body}`; it has {}", known.join(", "))]
     Unknown {
         /// The body's name.
         body: String,
@@ -57,36 +60,8 @@ pub enum NatNetError {
         known: Vec<String>,
     },
     /// The server speaks a version of the protocol that has other frames.
+    #[error("Motive streams NatNet {}.{}; set its bit stream version to 3.0 to 4.1", .0.0, .0.1)]
     Version(Version),
-}
-
-impl fmt::Display for NatNetError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NatNetError::Io(error) => write!(f, "the connection failed: {error}"),
-            NatNetError::Silent(server) => write!(
-                f,
-                "the OptiTrack server at {server} is silent; does Motive stream unicast to this machine?"
-            ),
-            NatNetError::Unknown { body, known } => write!(
-                f,
-                "Motive has no rigid body `{body}`; it has {}",
-                known.join(", ")
-            ),
-            NatNetError::Version((major, minor)) => write!(
-                f,
-                "Motive streams NatNet {major}.{minor}; set its bit stream version to 3.0 to 4.1"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NatNetError {}
-
-impl From<io::Error> for NatNetError {
-    fn from(error: io::Error) -> NatNetError {
-        NatNetError::Io(error)
-    }
 }
 
 /// How often the server is asked to continue, and how long it may be silent.

@@ -5,7 +5,7 @@
 
 use starl_core::sensor::Contact;
 use starl_core::{Command, Estimate, Point};
-use std::fmt;
+use thiserror::Error;
 
 /// A robot's motors and its own sensors.
 pub trait Device: Send {
@@ -51,27 +51,12 @@ pub struct Reading {
 }
 
 /// Why a device cannot be used at the moment.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum DeviceError {
     /// The connection failed.
-    Io(std::io::Error),
+    #[error("the connection failed: {0}")]
+    Io(#[from] std::io::Error),
     /// The device reports a fault of its own, or sends what makes no sense.
+    #[error("{0}")]
     Fault(String),
-}
-
-impl fmt::Display for DeviceError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            DeviceError::Io(error) => write!(f, "the connection failed: {error}"),
-            DeviceError::Fault(what) => f.write_str(what),
-        }
-    }
-}
-
-impl std::error::Error for DeviceError {}
-
-impl From<std::io::Error> for DeviceError {
-    fn from(error: std::io::Error) -> DeviceError {
-        DeviceError::Io(error)
-    }
 }

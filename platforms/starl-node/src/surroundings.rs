@@ -22,15 +22,6 @@ use starl_motion::sensing::{Readings, SensorSuite};
 /// A robot that is not perceived for longer stands where it was last.
 const FRESH: Duration = Duration::from_millis(500);
 
-/// A thing that detectors see, where it lies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Thing {
-    /// Its name.
-    pub name: Name,
-    /// Where it is, metres.
-    pub position: Point,
-}
-
 /// The robot's knowledge of the bodies around it.
 #[derive(Debug)]
 pub(crate) struct Surroundings {
@@ -196,6 +187,7 @@ mod tests {
     use super::*;
     use crate::Safety;
     use crate::localise::Accuracy;
+    use crate::robot::Thing;
     use starl_core::motion::Workspace;
     use starl_core::sensor::Detected;
     use starl_core::{Program, Random, Robot};

@@ -65,7 +65,7 @@ pub struct Ros2Robot {
     options: Ros2Options,
     heard: Arc<Mutex<Heard>>,
     track: Arc<Mutex<Track>>,
-    link: Arc<OnceLock<Result<Link, String>>>,
+    link: Arc<OnceLock<Result<Link, ZenohError>>>,
     publishers: BTreeMap<Topic, Publisher>,
     begun: Instant,
     /// The odometry of the last reading, and when it came.
@@ -124,7 +124,7 @@ impl Ros2Robot {
             .spawn(move || {
                 // A client waits for its router, however long that takes.
                 let joined = Link::open(&zenoh, domain, &namespace, &heard, &track);
-                let _ = link.set(joined.map_err(|error| error.to_string()));
+                let _ = link.set(joined);
             })?;
         Ok(robot)
     }
@@ -192,7 +192,7 @@ impl Ros2Robot {
     fn check(&self) -> Result<(), DeviceError> {
         let fault = |text: String| Err(DeviceError::Fault(text));
         if let Some(Err(error)) = self.link.get() {
-            return fault(error.clone());
+            return fault(error.to_string());
         }
         if self.begun.elapsed() < BEGINNING {
             return Ok(());

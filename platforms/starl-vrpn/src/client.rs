@@ -3,13 +3,13 @@
 use crate::wire::{self, Decoder, KIND_NAME, Message, Place, SENDER_NAME};
 use starl_core::{Point, Pose};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+use thiserror::Error;
 
 /// The server and the body to follow.
 #[derive(Clone, Debug)]
@@ -23,11 +23,13 @@ pub struct VrpnOptions {
 }
 
 /// Why there are no positions.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum VrpnError {
     /// The server cannot be reached, or the connection has ended.
+    #[error("the VRPN server at {0}: {1}")]
     Connection(SocketAddr, String),
     /// The server is silent about the tracker.
+    #[error("the VRPN server does not see `{tracker}`; it knows {}", known.join(", "))]
     Silent {
         /// The tracker's name.
         tracker: String,
@@ -35,23 +37,6 @@ pub enum VrpnError {
         known: Vec<String>,
     },
 }
-
-impl fmt::Display for VrpnError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            VrpnError::Connection(server, what) => {
-                write!(f, "the VRPN server at {server}: {what}")
-            }
-            VrpnError::Silent { tracker, known } => write!(
-                f,
-                "the VRPN server does not see `{tracker}`; it knows {}",
-                known.join(", ")
-            ),
-        }
-    }
-}
-
-impl std::error::Error for VrpnError {}
 
 /// A tracker is out of sight after this long without a report.
 const SILENCE: Duration = Duration::from_millis(1000);

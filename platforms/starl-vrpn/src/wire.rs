@@ -1,7 +1,7 @@
 //! The stream of a connection: a greeting each way, then messages, big-endian and padded to 8 bytes. Kinds of messages
 //! and their senders have numbers, which messages of their own give names to.
 
-use std::fmt;
+use thiserror::Error;
 
 /// The length of a greeting.
 pub const GREETING: usize = 24;
@@ -37,16 +37,9 @@ pub struct Message {
 }
 
 /// The stream cannot be read further: it is not VRPN, or bytes are missing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the other end does not send VRPN 7")]
 pub struct Broken;
-
-impl fmt::Display for Broken {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the other end does not send VRPN 7")
-    }
-}
-
-impl std::error::Error for Broken {}
 
 /// The greeting with which each end begins. It asks for no logging.
 pub fn greeting() -> [u8; GREETING] {

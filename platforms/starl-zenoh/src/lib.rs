@@ -6,12 +6,12 @@
 //! [`starl_node::link::Channel`] as on any link; TLS comes beneath that where it is configured.
 
 use starl_node::link::{Arrival, Member, Origin, Transport};
-use std::fmt;
 use std::io;
 use std::path::PathBuf;
 use std::sync::mpsc::{self, SyncSender, TrySendError};
 use std::thread;
 use std::time::Instant;
+use thiserror::Error;
 use zenoh::config::Config;
 use zenoh::qos::CongestionControl;
 use zenoh::{Session, Wait};
@@ -66,16 +66,9 @@ pub struct Tls {
 }
 
 /// Why a member cannot join.
-#[derive(Debug)]
+#[derive(Debug, Error)]
+#[error("{0}")]
 pub struct ZenohError(String);
-
-impl fmt::Display for ZenohError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for ZenohError {}
 
 impl From<zenoh::Error> for ZenohError {
     fn from(error: zenoh::Error) -> ZenohError {

@@ -6,6 +6,7 @@ use super::source::Compiled;
 use starl_core::RobotId;
 use starl_lang::compile::with_condition;
 use starl_lang::diagnostic::{Code as Number, Diagnostic, Span};
+use starl_lang::machine::Fault;
 use starl_lang::robot::Code;
 use starl_lang::robot::properties::Condition;
 use starl_sim::Simulation;
@@ -45,7 +46,7 @@ impl FleetCondition {
     }
 
     /// Whether it is true now: see [`Condition::ask`]. It does not change the simulation.
-    pub fn ask(&mut self, simulation: &Simulation) -> Vec<(Option<RobotId>, Result<bool, String>)> {
+    pub fn ask(&mut self, simulation: &Simulation) -> Vec<(Option<RobotId>, Result<bool, Fault>)> {
         let robots = members(&simulation.scenario().fleet, &self.program);
         let members = Members {
             witness: simulation,

@@ -12,7 +12,6 @@ mod values;
 pub use condition::FleetCondition;
 pub use source::Findings;
 
-use crate::parameters::Complaint;
 use invariant::ProgramInvariant;
 use monitor::ProgramMonitor;
 use source::Compiled;
@@ -22,6 +21,7 @@ use starl_lang::diagnostic::Diagnostic;
 use starl_lang::robot::{Code, RobotProgram};
 use starl_properties::Monitor;
 use starl_sim::Scenario;
+use starl_sim::engine::Complaint;
 use starl_sim::read::{Loader, Resolved};
 use starl_sim::scenario::{Fleet, Group};
 use std::collections::{BTreeMap, BTreeSet};
@@ -58,10 +58,10 @@ impl Programs {
                     review.findings.extend(findings);
                     programs.0.extend(compiled.map(|compiled| (path, compiled)));
                 }
-                Err(message) => {
+                Err(error) => {
                     let complaint = Complaint {
                         field: "program".to_string(),
-                        message,
+                        message: error.to_string(),
                         help: String::new(),
                     };
                     review.complaints.push((group, complaint));

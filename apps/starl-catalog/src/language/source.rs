@@ -1,15 +1,18 @@
 //! From the path of a program to code that robots can run.
 
 use super::SUFFIX;
+use starl_core::{FileError, file};
 use starl_lang::check::{Checked, CheckedFile, Libraries, StandardLibraries, check};
 use starl_lang::compile::compile as to_bytecode;
 use starl_lang::diagnostic::{Colour, Diagnostic, Severity, render};
 use starl_lang::ir::Model;
+use starl_lang::machine::LoadError;
 use starl_lang::robot::Code;
 use starl_sim::read::{Loader, Resolved};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
+use thiserror::Error;
 
 /// The compiler's findings in a file; errors, warnings or both.
 #[derive(Clone, Debug)]
@@ -47,10 +50,10 @@ impl Libraries for Compiled {
         self.libraries.get(name).cloned()
     }
 
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn model(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let found = self.models.iter().find(|model| model.path == path);
         let bytes = found.map(|model| model.bytes.clone());
-        bytes.ok_or_else(|| "there is no such file".to_string())
+        bytes.ok_or(FileError::Missing)
     }
 }
 
@@ -80,6 +83,19 @@ impl Findings {
     }
 }
 
+/// Why a program that the scenario names has neither code nor findings.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum CompileError {
+    #[error("{path:?} cannot be read: {error}; its path is relative to the scenario's folder")]
+    Unreadable { path: String, error: FileError },
+    #[error("{path:?}: {error}")]
+    NotText { path: String, error: FileError },
+    #[error("{0:?} is a library, which no robot can run")]
+    Library(String),
+    #[error("{path:?} cannot be run: {error}")]
+    NotRunnable { path: String, error: LoadError },
+}
+
 /// Loads a program with the libraries and models that it names and compiles it. The files are kept among the
 /// scenario's inputs.
 ///
@@ -89,7 +105,7 @@ pub fn compile(
     path: &str,
     resolved: &mut Resolved,
     loader: &dyn Loader,
-) -> Result<(Option<Compiled>, Vec<Findings>), String> {
+) -> Result<(Option<Compiled>, Vec<Findings>), CompileError> {
     let folder = Folder::of(path, loader);
     let text = folder.text(path)?;
     let checked = check(&text, &folder);
@@ -110,7 +126,7 @@ pub fn compile(
         return Ok((None, findings));
     }
     if checked.program.is_library {
-        return Err(format!("{path:?} is a library, which no robot can run"));
+        return Err(CompileError::Library(path.into()));
     }
     let mut bytecode = match to_bytecode(&checked) {
         Ok(bytecode) => bytecode,
@@ -128,7 +144,10 @@ pub fn compile(
         file.name = file_name(&path_of(number, checked, path)).to_string();
     }
     let name = bytecode.name.clone();
-    let code = Code::load(bytecode).map_err(|error| format!("{path:?} cannot be run: {error}"))?;
+    let code = Code::load(bytecode).map_err(|error| {
+        let path = path.into();
+        CompileError::NotRunnable { path, error }
+    })?;
     let libraries = checked.files.into_iter().skip(1);
     let compiled = Compiled {
         name,
@@ -183,7 +202,7 @@ fn file_name(path: &str) -> &str {
 struct Folder<'a> {
     program: &'a str,
     loader: &'a dyn Loader,
-    brought: RefCell<BTreeMap<String, Result<String, String>>>,
+    brought: RefCell<BTreeMap<String, Result<String, CompileError>>>,
     models: RefCell<BTreeMap<String, Vec<u8>>>,
 }
 
@@ -198,21 +217,18 @@ impl<'a> Folder<'a> {
     }
 
     /// The text of the program.
-    fn text(&self, path: &str) -> Result<String, String> {
-        let bytes = self.loader.load(path);
-        let bytes = bytes.map_err(|reason| {
-            format!(
-                "{path:?} cannot be read: {reason}; its path is relative to the scenario's folder"
-            )
+    fn text(&self, path: &str) -> Result<String, CompileError> {
+        let bytes = self.loader.load(path).map_err(|error| {
+            let path = path.into();
+            CompileError::Unreadable { path, error }
         })?;
-        self.keep(path, bytes)
+        self.keep(path, &bytes)
     }
 
-    fn keep(&self, path: &str, bytes: Vec<u8>) -> Result<String, String> {
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
-            format!("{path:?} is not text in UTF-8, in line {line}")
+    fn keep(&self, path: &str, bytes: &[u8]) -> Result<String, CompileError> {
+        let text = file::text(bytes).map(str::to_string).map_err(|error| {
+            let path = path.into();
+            CompileError::NotText { path, error }
         });
         let mut brought = self.brought.borrow_mut();
         brought.insert(path.to_string(), text.clone());
@@ -225,12 +241,12 @@ impl Libraries for Folder<'_> {
     fn source(&self, name: &str) -> Option<String> {
         let path = beside(self.program, &format!("{name}{SUFFIX}"));
         match self.loader.load(&path) {
-            Ok(bytes) => self.keep(&path, bytes).ok(),
+            Ok(bytes) => self.keep(&path, &bytes).ok(),
             Err(_) => StandardLibraries.source(name),
         }
     }
 
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn model(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let path = beside(self.program, path);
         let bytes = self.loader.load(&path)?;
         self.models.borrow_mut().insert(path, bytes.clone());

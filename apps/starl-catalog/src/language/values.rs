@@ -1,9 +1,10 @@
 //! The parameters of a scenario, as values of the types that a program declares.
 
-use crate::parameters::{Complaint, complaint, describe};
+use crate::parameters::{complaint, describe};
 use starl_core::{Point, Time};
-use starl_lang::machine::{self, Bytecode, ObjectType, Type, Value};
+use starl_lang::machine::{self, Bytecode, ObjectType, Type, Value, is_tuple};
 use starl_lang::robot::{Code, RobotProgram};
+use starl_sim::engine::Complaint;
 use starl_sim::read::suggest;
 use starl_sim::scenario::{Fleet, Group, Parameter};
 
@@ -84,6 +85,16 @@ impl Reader<'_> {
                 Value::Variant(known.ok_or_else(unfit)?.clone())
             }
             (Type::Point, Parameter::List(parts)) => Value::Point(point(parts).ok_or_else(unfit)?),
+            (Type::Record(parts), Parameter::List(list))
+                if is_tuple(parts) && parts.len() == list.len() =>
+            {
+                let parts = parts.iter().zip(list);
+                let part = |((part, kind), given): (&(String, Type), &Parameter)| {
+                    let value = self.value(given, kind, &format!("{name}.{part}"))?;
+                    Ok((part.clone(), value))
+                };
+                Value::Record(parts.map(part).collect::<Result<_, _>>()?)
+            }
             (Type::Optional(kind), given) => Value::Some(Box::new(self.value(given, kind, name)?)),
             (Type::Object(number), given) => match (self.object(*number), given) {
                 (Some(ObjectType::Text), Parameter::Text(text)) => Value::Text(text.clone()),
@@ -127,7 +138,11 @@ impl Reader<'_> {
             Type::Point => "a point [x, y] or [x, y, z], metres".into(),
             Type::Enum(number) => format!("one of {}", self.variants(*number).join(", ")),
             Type::Optional(kind) => self.expected(kind),
-            Type::Record(_) => "nothing: a scenario cannot set records or tuples".into(),
+            Type::Record(parts) if is_tuple(parts) => {
+                let parts = parts.iter().map(|(_, kind)| self.expected(kind));
+                format!("a list [{}]", parts.collect::<Vec<_>>().join("; "))
+            }
+            Type::Record(_) => "nothing: a scenario cannot set records".into(),
             Type::Object(number) => match self.object(*number) {
                 Some(ObjectType::Text) => "a text that is not a quantity".into(),
                 Some(ObjectType::List(element) | ObjectType::Set(element)) => {

@@ -9,7 +9,7 @@ mod keeper;
 mod radio;
 
 use crate::language::SUFFIX;
-use crate::parameters::{Complaint, Parameters};
+use crate::parameters::Parameters;
 use beacon::Beacon;
 use diffusion::Diffusion;
 use drive::Drive;
@@ -20,6 +20,7 @@ use starl_core::{Duration, Program};
 use starl_primitives::{reach_avoid, reliable};
 use starl_properties::Monitor;
 use starl_race::Race;
+use starl_sim::engine::Complaint;
 use starl_sim::read::suggest;
 use starl_sim::scenario::{Fleet, Group};
 use std::fmt;

@@ -52,10 +52,10 @@ impl Service {
     ///
     /// # Errors
     /// If there is none of this number.
-    pub fn session(&mut self, simulation: u32) -> Result<&mut Session, String> {
+    pub fn session(&mut self, simulation: u32) -> Result<&mut Session, Refused> {
         let session = self.sessions.get_mut(&simulation);
-        session
-            .ok_or_else(|| format!("there is no simulation {simulation}; it may have been closed"))
+        let what = || format!("there is no simulation {simulation}; it may have been closed");
+        session.ok_or_else(|| what().into())
     }
 
     fn files(&self, contents: Contents) -> Files {

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use starl_core::{Duration, Intervention, RobotId, Time};
 use starl_lang::editor::Utf16Position;
 use std::collections::BTreeMap;
+use thiserror::Error;
 
 /// A request.
 #[derive(Deserialize)]
@@ -162,17 +163,26 @@ impl From<Contents> for Files {
     }
 }
 
+/// A number of seconds that is not the time that it should be.
+#[derive(Debug, Error)]
+pub enum NotATime {
+    #[error("{0} is not a time; give seconds from 0")]
+    Moment(f64),
+    #[error("{0} is not a period; give seconds, at least 1e-9")]
+    Period(f64),
+}
+
 /// A moment in seconds since the start of the run.
 #[derive(Deserialize)]
 #[serde(try_from = "f64")]
 pub struct Seconds(pub Time);
 
 impl TryFrom<f64> for Seconds {
-    type Error = String;
-    fn try_from(seconds: f64) -> Result<Seconds, String> {
+    type Error = NotATime;
+    fn try_from(seconds: f64) -> Result<Seconds, NotATime> {
         match seconds >= 0.0 && seconds.is_finite() {
             true => Ok(Seconds(Time::ZERO + Duration::from_seconds_f64(seconds))),
-            false => Err(format!("{seconds} is not a time; give seconds from 0")),
+            false => Err(NotATime::Moment(seconds)),
         }
     }
 }
@@ -183,13 +193,11 @@ impl TryFrom<f64> for Seconds {
 pub struct Period(pub Duration);
 
 impl TryFrom<f64> for Period {
-    type Error = String;
-    fn try_from(seconds: f64) -> Result<Period, String> {
+    type Error = NotATime;
+    fn try_from(seconds: f64) -> Result<Period, NotATime> {
         let period = Duration::from_seconds_f64(seconds);
         match period.is_zero() || !seconds.is_finite() {
-            true => Err(format!(
-                "{seconds} is not a period; give seconds, at least 1e-9"
-            )),
+            true => Err(NotATime::Period(seconds)),
             false => Ok(Period(period)),
         }
     }

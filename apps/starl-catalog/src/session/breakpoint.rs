@@ -13,6 +13,7 @@ use names::Names;
 use serde::{Deserialize, Serialize};
 use starl_core::event::Event;
 use starl_core::{Record, RobotId};
+use starl_lang::machine::Fault;
 use starl_lang::robot::RobotProgram;
 use starl_sim::{Run, Simulation};
 use std::collections::BTreeMap;
@@ -67,7 +68,7 @@ pub(super) struct Breakpoints {
 #[derive(Clone)]
 struct Watched {
     condition: FleetCondition,
-    met: BTreeMap<Option<RobotId>, Option<String>>,
+    met: BTreeMap<Option<RobotId>, Option<Fault>>,
 }
 
 impl Breakpoints {
@@ -182,7 +183,7 @@ impl Breakpoints {
 
 impl Watched {
     /// Asks again; gives a robot of which it has become true or cannot be evaluated any more, and then why.
-    fn look(&mut self, simulation: &Simulation) -> Option<(Option<RobotId>, Option<String>)> {
+    fn look(&mut self, simulation: &Simulation) -> Option<(Option<RobotId>, Option<Fault>)> {
         let asked = self.condition.ask(simulation).into_iter();
         let met: BTreeMap<_, _> = asked
             .filter_map(|(robot, truth)| match truth {
@@ -200,10 +201,10 @@ impl Watched {
     }
 }
 
-fn check_robot(robot: Option<RobotId>, run: &Run) -> Result<(), String> {
+fn check_robot(robot: Option<RobotId>, run: &Run) -> Result<(), Refused> {
     match robot {
         Some(robot) if robot.index() >= run.simulation().robots().len() => {
-            Err(format!("there is no robot {robot}"))
+            Err(format!("there is no robot {robot}").into())
         }
         _ => Ok(()),
     }

@@ -218,13 +218,13 @@ pub fn check(files: &Files, registry: &Registry) -> Vec<Diagnostic> {
         .ending_with(SUFFIX)
         .flat_map(|path| match files.text(path) {
             Ok(text) => program(files, path, text),
-            Err(message) => vec![Diagnostic::of_file(path, message)],
+            Err(error) => vec![Diagnostic::of_file(path, error.to_string())],
         });
     let scenarios = files
         .ending_with(SCENARIO_SUFFIX)
         .flat_map(|path| match files.text(path) {
             Ok(text) => scenario(files, path, text, registry),
-            Err(message) => vec![Diagnostic::of_file(path, message)],
+            Err(error) => vec![Diagnostic::of_file(path, error.to_string())],
         });
     let mut all: Vec<Diagnostic> = programs.chain(scenarios).collect();
     all.sort();

@@ -1,6 +1,7 @@
 //! An editor's view of programs among files in memory. The information comes from [`starl_lang::editor`],
 //! like that of the language server.
 
+use super::Refused;
 use super::files::{Beside, Files};
 use crate::language::SUFFIX;
 use serde::Serialize;
@@ -80,11 +81,10 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// If there is none.
-    pub fn open(files: &'a Files, path: &'a str) -> Result<Document<'a>, String> {
+    pub fn open(files: &'a Files, path: &'a str) -> Result<Document<'a>, Refused> {
         if !path.ends_with(SUFFIX) {
-            return Err(format!(
-                "{path}: give a program or library, which end in {SUFFIX}"
-            ));
+            let message = format!("{path}: give a program or library, which end in {SUFFIX}");
+            return Err(message.into());
         }
         let text = files.text(path);
         let text = text.map_err(|reason| format!("{path}: {reason}"))?;

@@ -4,6 +4,7 @@
 
 use crate::examples::Example;
 use crate::language::SUFFIX;
+use starl_core::{FileError, file};
 use starl_lang::check::{Libraries, StandardLibraries};
 use starl_lang::editor::is_library;
 use starl_sim::read::Loader;
@@ -18,9 +19,9 @@ pub struct Files {
     disk: Option<Disk>,
 }
 
-/// Reads a file of the disk; the error says why it cannot be read.
+/// Reads a file of the disk.
 #[derive(Clone, Copy, Debug)]
-pub struct Disk(pub fn(&Path) -> Result<Vec<u8>, String>);
+pub struct Disk(pub fn(&Path) -> Result<Vec<u8>, FileError>);
 
 /// A file on disk may have changed since.
 impl PartialEq for Disk {
@@ -49,11 +50,11 @@ impl Files {
     }
 
     /// The content of a file that is held or, if there is a disk, on it.
-    fn content(&self, path: &str) -> Result<Cow<'_, [u8]>, String> {
+    fn content(&self, path: &str) -> Result<Cow<'_, [u8]>, FileError> {
         match (self.held.get(path), self.disk) {
             (Some(held), _) => Ok(Cow::Borrowed(held)),
             (None, Some(Disk(read))) => read(Path::new(path)).map(Cow::Owned),
-            (None, None) => Err("there is no such file".to_string()),
+            (None, None) => Err(FileError::Missing),
         }
     }
 
@@ -72,14 +73,9 @@ impl Files {
     ///
     /// # Errors
     /// If there is no such file, or it is not text in UTF-8.
-    pub fn text(&self, path: &str) -> Result<&str, String> {
+    pub fn text(&self, path: &str) -> Result<&str, FileError> {
         let bytes = self.held.get(&resolve("", path));
-        let bytes = bytes.ok_or_else(|| "there is no such file".to_string())?;
-        str::from_utf8(bytes).map_err(|error| {
-            let before = &bytes[..error.valid_up_to()];
-            let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
-            format!("it is not text in UTF-8, in line {line}")
-        })
+        file::text(bytes.ok_or(FileError::Missing)?)
     }
 }
 
@@ -131,7 +127,7 @@ impl<'a> Beside<'a> {
 }
 
 impl Loader for Beside<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match (self.files.content(&self.resolve(path)), self.example) {
             (Ok(content), _) => Ok(content.into_owned()),
             (Err(_), Some(example)) => example.load(path),
@@ -151,7 +147,7 @@ impl Libraries for Beside<'_> {
         }
     }
 
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn model(&self, path: &str) -> Result<Vec<u8>, FileError> {
         self.load(path)
     }
 

@@ -230,7 +230,7 @@ impl RobotReport {
                 .map(|action| ActionReport {
                     name: action.name,
                     enabled: action.enabled == Ok(true),
-                    error: action.enabled.err(),
+                    error: action.enabled.err().map(|error| error.to_string()),
                 })
                 .collect(),
             primitives: primitives

@@ -38,6 +38,7 @@ use crate::programs::Registry;
 use breakpoint::Breakpoints;
 use poses::Frames;
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
+use starl_sim::engine::InterventionError;
 use starl_sim::{Run, write};
 use starl_trace::Topic;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -116,7 +117,9 @@ impl Session {
         global_names: BTreeMap<String, String>,
         warnings: Vec<Diagnostic>,
     ) -> Result<Session, Refused> {
-        let run = application.run().map_err(|error| error.message)?;
+        let run = application
+            .run()
+            .map_err(|error| application.problem(error))?;
         Ok(Session::new(run, application, warnings, global_names))
     }
 
@@ -170,7 +173,7 @@ impl Session {
     ///
     /// # Errors
     /// Names the topic that there is not.
-    pub fn set_topics(&mut self, names: &[String]) -> Result<(), String> {
+    pub fn set_topics(&mut self, names: &[String]) -> Result<(), Refused> {
         let topic = |name: &String| {
             let topic = Topic::named(name).filter(|&topic| topic != Topic::Summary);
             topic.ok_or_else(|| {
@@ -255,7 +258,7 @@ impl Session {
     ///
     /// # Errors
     /// The error of the intervention.
-    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), InterventionError> {
         self.live.run.apply(at, what)
     }
 
@@ -281,7 +284,7 @@ impl Session {
     ///
     /// # Errors
     /// If there is no such moment.
-    pub fn restore(&mut self, number: u32) -> Result<Status, String> {
+    pub fn restore(&mut self, number: u32) -> Result<Status, Refused> {
         let kept = self.kept.get(&number);
         self.live = kept.ok_or_else(|| unknown(number))?.clone();
         self.breakpoints.look_anew(&self.live.run);
@@ -292,7 +295,7 @@ impl Session {
     ///
     /// # Errors
     /// If there is no such moment.
-    pub fn forget(&mut self, number: u32) -> Result<(), String> {
+    pub fn forget(&mut self, number: u32) -> Result<(), Refused> {
         let kept = self.kept.remove(&number);
         kept.map(|_| ()).ok_or_else(|| unknown(number))
     }
@@ -374,6 +377,6 @@ impl Live {
     }
 }
 
-fn unknown(number: u32) -> String {
-    format!("there is no snapshot {number}")
+fn unknown(number: u32) -> Refused {
+    format!("there is no snapshot {number}").into()
 }

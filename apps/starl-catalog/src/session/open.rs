@@ -9,7 +9,9 @@ use crate::programs::Registry;
 use crate::{Application, read};
 use serde::{Deserialize, Serialize};
 use starl_lang::check::{NoLibraries, check};
+use starl_sim::engine::InterventionError;
 use starl_sim::read::{Override, Problem, Request, Source, suggest};
+use starl_trace::WriteError;
 use std::collections::BTreeMap;
 
 /// The target to open, and changes of it. Each corresponds to an option of `starl run`.
@@ -52,11 +54,18 @@ impl From<String> for Refused {
     }
 }
 
-impl From<Problem> for Refused {
-    fn from(problem: Problem) -> Refused {
-        problem.to_string().into()
-    }
+/// An error that concerns no place in a file.
+macro_rules! plain {
+    ($($error:ty),*) => {$(
+        impl From<$error> for Refused {
+            fn from(error: $error) -> Refused {
+                error.to_string().into()
+            }
+        }
+    )*};
 }
+
+plain!(Problem, InterventionError, WriteError);
 
 /// The opened target.
 pub(crate) struct Opened {
@@ -182,20 +191,21 @@ fn scenario(
 }
 
 /// The only program among the files that is not a library.
-fn only_program(files: &Files) -> Result<String, String> {
+fn only_program(files: &Files) -> Result<String, Refused> {
     let is_program = |path: &&str| {
         let text = files.text(path).unwrap_or_default();
         !check(text, &NoLibraries).program.is_library
     };
     let all: Vec<&str> = files.ending_with(SUFFIX).filter(is_program).collect();
     match all[..] {
-        [] => Err("there is neither a scenario nor a program among the files".to_string()),
+        [] => {
+            let message = "there is neither a scenario nor a program among the files";
+            Err(message.to_string().into())
+        }
         [path] => Ok(path.to_string()),
         _ => {
             let all = all.join(", ");
-            Err(format!(
-                "there are several programs; set `program` to one of {all}"
-            ))
+            Err(format!("there are several programs; set `program` to one of {all}").into())
         }
     }
 }

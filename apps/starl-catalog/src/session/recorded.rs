@@ -9,7 +9,7 @@ use crate::programs::Registry;
 use crate::{read, recording};
 use serde::Deserialize;
 use starl_core::{Intervention, Time};
-use starl_trace::{Header, Outcome, ViewOptions, WriteError, Writer};
+use starl_trace::{Header, Outcome, ViewOptions, Writer};
 use std::collections::BTreeMap;
 
 /// The start and the interventions of a run, from its trace.
@@ -39,7 +39,7 @@ impl Session {
             ..Header::default()
         };
         let again = |what: String| format!("the recorded run cannot be run again: {what}");
-        let inputs = recording::inputs(&header).map_err(again)?;
+        let inputs = recording::inputs(&header).map_err(|error| again(error.to_string()))?;
         let application = read(&inputs.request, &inputs, registry);
         let application = application.map_err(|refusal| again(refusal.to_string()))?;
         let mut session = Session::of(application, BTreeMap::new(), Vec::<Diagnostic>::new())?;
@@ -55,18 +55,18 @@ impl Session {
     ///
     /// # Errors
     /// The error of an event that a trace cannot contain.
-    pub fn trace(&self) -> Result<Vec<u8>, String> {
+    pub fn trace(&self) -> Result<Vec<u8>, Refused> {
         let now = self.run().simulation().now();
-        let mut run = self.application.run().map_err(|error| error.message)?;
+        let run = self.application.run();
+        let mut run = run.map_err(|error| self.application.problem(error))?;
         for (at, what) in self.run().simulation().applied() {
             run.apply(*at, what.clone())?;
         }
-        let text = |error: WriteError| error.to_string();
         let header = recording::header(self.application.resolved(), &run.setting());
-        let mut writer = Writer::new(Vec::new(), &header, &ViewOptions::default()).map_err(text)?;
+        let mut writer = Writer::new(Vec::new(), &header, &ViewOptions::default())?;
         while run.simulation().now() < now {
             for record in run.step() {
-                writer.write(record).map_err(text)?;
+                writer.write(record)?;
             }
         }
         let outcome = match run.is_over() {
@@ -78,6 +78,6 @@ impl Session {
             digest: run.simulation().digest().value(),
             end: now,
         };
-        writer.finish(&outcome).map_err(text)
+        Ok(writer.finish(&outcome)?)
     }
 }

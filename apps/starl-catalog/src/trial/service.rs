@@ -68,7 +68,7 @@ pub fn profiles() -> [ProfileReport; Profile::ALL.len()] {
 }
 
 /// A profile by its name, and a seed that a scenario can hold.
-fn chosen(profile: &str, seed: &str) -> Result<(Profile, u64), String> {
+fn chosen(profile: &str, seed: &str) -> Result<(Profile, u64), Refused> {
     let found = Profile::by_name(profile).ok_or_else(|| {
         let known = Profile::ALL.map(Profile::name);
         let help = suggest::help(profile, &known, "the profiles are").unwrap_or_default();
@@ -160,7 +160,8 @@ impl Target {
             ..
         } = open(&files, &options, registry)?;
         Ok(Target {
-            subject: Subject::new(&application, false).map_err(|error| error.message)?,
+            subject: Subject::new(&application, false)
+                .map_err(|error| application.problem(error))?,
             files,
             options,
             path,
@@ -196,7 +197,7 @@ impl Target {
         })
     }
 
-    fn begin(&self, (profile, seed): (Profile, u64)) -> Result<Shrinking, String> {
+    fn begin(&self, (profile, seed): (Profile, u64)) -> Result<Shrinking, Refused> {
         let name = profile.name();
         let (_, Trial { finding, .. }) = self.subject.try_out(profile, seed);
         let finding: Finding = finding

@@ -1,7 +1,7 @@
 //! A scenario's goal may be a condition over the robots, in the language of their programs.
 
 use starl_catalog::{Application, Refusal};
-use starl_core::{Duration, Time};
+use starl_core::{Duration, FileError, Time};
 use starl_sim::Outcome;
 use starl_sim::read::{Loader, Request, Source};
 
@@ -16,10 +16,10 @@ up()
 struct OneFile;
 
 impl Loader for OneFile {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match path {
             "counter.starl" => Ok(COUNTER.as_bytes().to_vec()),
-            _ => Err("there is no such file".to_string()),
+            _ => Err(FileError::Missing),
         }
     }
 }

@@ -2,7 +2,7 @@
 //! Values that do not match are refused, with the place in the scenario and a suggested fix.
 
 use starl_catalog::{Application, Refusal};
-use starl_core::{Duration, Time};
+use starl_core::{Duration, FileError, Time};
 use starl_lang::machine::Value;
 use starl_lang::robot::RobotProgram;
 use starl_sim::read::{Loader, Request, Source};
@@ -22,17 +22,18 @@ param leader: RobotId
 param places: List[Point] = []
 param kinds: Set[Int] = {}
 param maybe: Float? = none
+param bids: List[(Float, RobotId)] = []
 idle()
-    eff log(\"{} {} {} {} {} {} {} {} {} {} {} {}\", flag, count, length, name, span, start, place, side, leader, places, kinds, maybe)
+    eff log(\"{} {} {} {} {} {} {} {} {} {} {} {} {}\", flag, count, length, name, span, start, place, side, leader, places, kinds, maybe, bids)
 ";
 
 struct OneFile(String);
 
 impl Loader for OneFile {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match path {
             "settings.starl" => Ok(self.0.clone().into_bytes()),
-            _ => Err("there is no such file".to_string()),
+            _ => Err(FileError::Missing),
         }
     }
 }
@@ -58,7 +59,7 @@ const LEAST: &str = "flag = true\nleader = \"create1\"\nstart = \"2s\"\n";
 fn each_type_is_written_in_its_way() {
     let given = "flag = true\ncount = -3\nlength = \"75mm\"\nname = \"north\"\nspan = \"250ms\"\nstart = \"2s\"\n\
                  place = [1, 2.5]\nside = \"right\"\nleader = \"create1\"\nplaces = [[0, 1], [2, 3, 4]]\n\
-                 kinds = [3, 1, 3]\nmaybe = 2\n";
+                 kinds = [3, 1, 3]\nmaybe = 2\nbids = [[1, \"create1\"], [\"75mm\", \"create0\"]]\n";
     let application = read(given).unwrap_or_else(|refusal| panic!("{refusal}"));
     let run = application.run().unwrap();
     let program = run
@@ -81,6 +82,7 @@ fn each_type_is_written_in_its_way() {
     assert_eq!(shown("places"), "[(0.0, 1.0, 0.0), (2.0, 3.0, 4.0)]");
     assert_eq!(shown("kinds"), "{1, 3}");
     assert_eq!(shown("maybe"), "2.0");
+    assert_eq!(shown("bids"), "[(1.0, 1), (0.075, 0)]");
 }
 
 #[test]
@@ -145,6 +147,14 @@ fn invalid_values_are_rejected_with_their_position() {
         (
             "maybe = \"a\"",
             "parameters.maybe: \"a\" does not fit; give a number, or a quantity such as \"75mm\"",
+        ),
+        (
+            "bids = [[1, \"create7\"]]",
+            "parameters.bids.0.1: \"create7\" does not fit; give the name of a robot",
+        ),
+        (
+            "bids = [[1]]",
+            "parameters.bids.0: a list of 1 does not fit; give a list [a number, or a quantity such as \"75mm\"; the name of a robot]",
         ),
         (
             "sidde = \"left\"",

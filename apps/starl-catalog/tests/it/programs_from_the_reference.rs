@@ -4,6 +4,7 @@
 use crate::support::code_lines;
 use rayon::prelude::*;
 use starl_catalog::trial::Subject;
+use starl_core::FileError;
 use starl_sim::profile::Profile;
 use starl_sim::read::{Loader, Request, Source};
 
@@ -11,9 +12,10 @@ use starl_sim::read::{Loader, Request, Source};
 struct Folder;
 
 impl Loader for Folder {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/programs");
-        std::fs::read(format!("{folder}/{path}")).map_err(|error| error.to_string())
+        std::fs::read(format!("{folder}/{path}"))
+            .map_err(|error| FileError::Unreadable(error.to_string()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use starl_catalog::programs::Registry;
 use starl_catalog::trial::{Shrinking, Subject};
-use starl_core::RobotId;
+use starl_core::{FileError, RobotId};
 use starl_sim::Finding;
 use starl_sim::profile::Profile;
 use starl_sim::read::{Loader, Request, Source};
@@ -47,10 +47,10 @@ invariant quiet: not alarmed
 struct OneFile(String);
 
 impl Loader for OneFile {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match path {
             "watch.starl" => Ok(self.0.as_bytes().to_vec()),
-            _ => Err("there is no such file".to_string()),
+            _ => Err(FileError::Missing),
         }
     }
 }

@@ -9,7 +9,7 @@ use cpu_time::ProcessTime;
 use serde::Serialize;
 use starl_catalog::examples::EXAMPLES;
 use starl_catalog::programs::Registry;
-use starl_core::Time;
+use starl_core::{FileError, Time};
 use starl_sim::Simulation;
 use starl_sim::read::{Loader, Request, Source};
 use std::fmt::Write;
@@ -100,7 +100,7 @@ fn start(name: &str, scenario: &str) -> Result<Simulation, Failure> {
         .map_err(refused)?;
     application
         .simulation()
-        .map_err(|error| Failure(error.message))
+        .map_err(|error| Failure(error.complaint.message))
 }
 
 /// The figures for people.
@@ -151,11 +151,9 @@ pub fn text(figures: &Figures) -> String {
 struct Examples;
 
 impl Loader for Examples {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let mut files = EXAMPLES.iter().map(|example| example.load(path));
-        files
-            .find(Result::is_ok)
-            .unwrap_or_else(|| Err("no example has such a file".to_string()))
+        files.find(Result::is_ok).unwrap_or(Err(FileError::Missing))
     }
 }
 

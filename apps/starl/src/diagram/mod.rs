@@ -14,7 +14,7 @@ use crate::args::DiagramArguments;
 use crate::console;
 use crate::failure::Failure;
 use crate::output::{Output, identity};
-use crate::outputs::Picture;
+use crate::picture::Picture;
 use crate::plot;
 use crate::plot::drawing::Drawing;
 use crate::replay::{inputs, open, unreadable};

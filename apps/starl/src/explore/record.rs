@@ -48,7 +48,7 @@ impl Recording {
     pub fn setup(&self, application: &Application) -> Result<Setup, Failure> {
         application
             .exploration(self.robots, self.bounds, self.heartbeats)
-            .map_err(|error| start_error(application, &error))
+            .map_err(|error| start_error(application, error))
     }
 
     /// The fleet at the beginning of the exploration, the number of steps before it, and the violations in them.

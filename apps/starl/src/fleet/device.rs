@@ -1,12 +1,13 @@
 //! Connects a robot's process to its hardware, and to the source of positions.
 
 use super::file::{Device, Fleet, Member, Positions, Up};
+use super::hardware::Hardware;
 use super::ros2;
 use crate::failure::Failure;
 use starl_ardrone::{Ardrone, ArdroneOptions};
 use starl_core::{Pose, RobotId};
 use starl_crazyflie::{Crazyflie, CrazyflieOptions};
-use starl_create::{Create, CreateOptions, Generation};
+use starl_create::{Create, CreateOptions};
 use starl_mavlink::{MavlinkOptions, MavlinkVehicle};
 use starl_natnet::{NatNet, NatNetOptions, UpAxis};
 use starl_node::DeviceError;
@@ -19,9 +20,6 @@ use std::time::Instant;
 
 /// Where an AR.Drone is that makes its own network.
 const DRONE: IpAddr = IpAddr::V4(Ipv4Addr::new(192, 168, 1, 1));
-
-/// A robot's device, and the source of its positions.
-pub type Hardware = (Box<dyn starl_node::Device>, Option<Box<dyn PositionSource>>);
 
 /// Connects to the robot's device and to its positions.
 pub fn connect(
@@ -56,7 +54,7 @@ pub fn connect(
             return Err(ros2::no_localisation(member));
         }
         Device::Create { port, baud, .. } => {
-            let mut options = CreateOptions::new(generation(&member.device));
+            let mut options = CreateOptions::new(member.device.generation());
             options.baud = baud.unwrap_or(options.baud);
             let create = Create::open(port, &options);
             Box::new(create.map_err(|error| {
@@ -88,17 +86,6 @@ pub fn connect(
         .as_ref()
         .map(|source| follow(source, fleet, member));
     Ok((device, positions.transpose()?))
-}
-
-/// Which Create a device is.
-pub fn generation(device: &Device) -> Generation {
-    match device {
-        Device::Create {
-            generation: Some(1),
-            ..
-        } => Generation::Create1,
-        _ => Generation::Create2,
-    }
 }
 
 /// Follows the robot by motion capture, and the others that it may see.

@@ -1,10 +1,10 @@
 //! `starl emulate`: emulates hardware. Emulated robots are the simulator's models in one world, behind the wire
 //! protocols of the devices.
 
-use super::device::generation;
 use super::file::{Device, Fleet, Member, Positions};
-use super::member::when_abandoned;
+use super::hardware::Emulated;
 use super::ros2::{self, Manner, Place, Routers};
+use super::when_abandoned;
 use crate::args::{EmulateArguments, EmulateFleet};
 use crate::console;
 use crate::failure::Failure;
@@ -97,13 +97,6 @@ pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Fa
     Ok(true)
 }
 
-/// Something that is emulated as long as this is there.
-pub struct Emulated {
-    /// Where it is.
-    pub text: String,
-    pub _device: Box<dyn std::any::Any>,
-}
-
 /// All devices that a fleet file names, in the world of its scenario.
 fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>, Failure> {
     let fleet = Fleet::read(&arguments.fleet, None, true, registry)?;
@@ -191,7 +184,7 @@ fn member_device(
                 world,
                 &member.body,
                 start,
-                model(generation(&member.device)),
+                model(member.device.generation()),
             )?;
             create(body, Some(port)).map_err(named)?
         }

@@ -9,6 +9,7 @@ use starl_catalog::Application;
 use starl_catalog::examples;
 use starl_catalog::programs::Registry;
 use starl_core::{Duration, RobotId};
+use starl_create::Generation;
 use starl_node::link::{Impairment, Key};
 use starl_sim::read::suggest;
 use std::collections::BTreeMap;
@@ -490,4 +491,17 @@ fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
         path.display(),
         error.message().trim_end()
     ))
+}
+
+impl Device {
+    /// Which Create it is.
+    pub fn generation(&self) -> Generation {
+        match self {
+            Device::Create {
+                generation: Some(1),
+                ..
+            } => Generation::Create1,
+            _ => Generation::Create2,
+        }
+    }
 }

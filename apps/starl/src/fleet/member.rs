@@ -3,7 +3,7 @@
 use super::file::{Fleet, Member};
 use super::folder::Folder;
 use super::recorder::FleetRecorder;
-use super::{device, link};
+use super::{device, link, when_abandoned};
 use crate::args::RobotArguments;
 use crate::failure::Failure;
 use crate::run::on_interrupt;
@@ -15,8 +15,8 @@ use starl_host::Hardware;
 use starl_host::hardware::Drive;
 use starl_node::link::Channel;
 use starl_node::localise::Accuracy;
+use starl_node::robot::Thing;
 use starl_node::robot::{Connections, Incoming, Robot, Setup, mailbox};
-use starl_node::surroundings::Thing;
 use starl_node::{Storage, WallClock};
 use starl_properties::Setting;
 use starl_sim::Scenario;
@@ -82,15 +82,6 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
     Ok(true)
 }
 
-/// Does this when the process ends that holds the other end of standard input.
-pub fn when_abandoned(end: impl FnOnce() + Send + 'static) {
-    std::thread::spawn(move || {
-        // Nothing is ever written there.
-        let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
-        end();
-    });
-}
-
 /// The group of a robot, and where it starts.
 fn place(scenario: &Scenario, id: RobotId) -> Result<(&Group, Pose), Failure> {
     let group = scenario.fleet.group_of(id);
@@ -111,7 +102,8 @@ fn setup(
     now: Time,
 ) -> Result<Setup, Failure> {
     let scenario = fleet.application.scenario();
-    let program = fleet.application.program_of(id).map_err(Failure)?;
+    let program = fleet.application.program_of(id);
+    let program = program.map_err(|complaint| Failure(complaint.message))?;
     let groups = scenario.fleet.groups.iter();
     let bodies = groups.flat_map(|group| vec![group.model.body(); group.starts.len()]);
     let obstacles = scenario.world.obstacles.iter();

@@ -7,6 +7,7 @@ mod file;
 mod folder;
 #[cfg(feature = "web")]
 mod follow;
+mod hardware;
 mod key;
 mod link;
 mod member;
@@ -45,4 +46,13 @@ pub fn fleet(command: &FleetCommand, registry: &Registry) -> Result<bool, Failur
         FleetCommand::Merge(arguments) => merge::run(arguments, registry),
         FleetCommand::Key(arguments) => key::make(arguments),
     }
+}
+
+/// Does this when the process ends that holds the other end of standard input.
+fn when_abandoned(end: impl FnOnce() + Send + 'static) {
+    std::thread::spawn(move || {
+        // Nothing is ever written there.
+        let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+        end();
+    });
 }

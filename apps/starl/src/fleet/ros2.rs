@@ -1,8 +1,7 @@
 //! ROS 2 robots of a fleet, over Zenoh: their drivers, and their emulation.
 
-use super::device::Hardware;
-use super::emulate::Emulated;
 use super::file::{Fleet, Member, Positions};
+use super::hardware::{Emulated, Hardware};
 use crate::failure::Failure;
 use starl_emulate::BodyHandle;
 use starl_sim::scenario::Group;

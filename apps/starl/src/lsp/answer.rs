@@ -82,7 +82,7 @@ impl Answers<'_> {
                     let checked = this.checked(&at.text_document)?;
                     rename::prepare(&checked, at.position)
                         .map(Some)
-                        .map_err(|reason| (Fault::Failed, reason))
+                        .map_err(|refused| (Fault::Failed, refused.to_string()))
                 })
             }
             ask::Rename::METHOD => self.of::<ask::Rename>(params, |this, params| {
@@ -90,7 +90,7 @@ impl Answers<'_> {
                 let checked = this.checked(&at.text_document)?;
                 rename::rename(this.documents, &checked, at.position, &params.new_name)
                     .map(Some)
-                    .map_err(|reason| (Fault::Failed, reason))
+                    .map_err(|refused| (Fault::Failed, refused.to_string()))
             }),
             _ => self.to_whole(method, params),
         }

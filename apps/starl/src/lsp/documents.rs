@@ -3,6 +3,7 @@
 use super::location;
 use lsp_types::Uri;
 use starl_catalog::disk;
+use starl_core::FileError;
 use starl_lang::check::{Libraries, StandardLibraries};
 use starl_lang::editor::{Analysis, is_library};
 use starl_lang::syntax::MAX_LENGTH;
@@ -252,10 +253,10 @@ impl Libraries for Beside<'_> {
         beside.or_else(|| StandardLibraries.source(name))
     }
 
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn model(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let folder = self.folder.as_ref();
         let path = folder.map(|folder| folder.join(path));
-        let path = path.ok_or_else(|| "there is no such file".to_string())?;
+        let path = path.ok_or(FileError::Missing)?;
         self.asked.borrow_mut().insert(path.clone());
         disk::read(&path)
     }

@@ -4,11 +4,28 @@ use super::convert::Text;
 use super::documents::{Checked, Documents};
 use super::navigate::users;
 use lsp_types::{Position, PrepareRenameResponse, TextEdit, Uri, WorkspaceEdit};
+use starl_lang::check::Symbol;
+use starl_lang::editor::RenameError;
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use thiserror::Error;
+
+/// Why a name is not changed.
+#[derive(Debug, Error)]
+pub enum Refused {
+    /// It must stay in this text.
+    #[error(transparent)]
+    Here(#[from] RenameError),
+    /// It must stay in another text that uses it.
+    #[error("in {file}: {error}")]
+    Elsewhere { file: String, error: RenameError },
+    /// It is declared where nothing can be changed.
+    #[error("`{0}` is part of the standard library")]
+    Standard(String),
+}
 
 /// The name that can be renamed at a position, or the reason why there is none.
-pub fn prepare(checked: &Checked, position: Position) -> Result<PrepareRenameResponse, String> {
+pub fn prepare(checked: &Checked, position: Position) -> Result<PrepareRenameResponse, Refused> {
     let text = Text::new(checked.analysis.text());
     let found = checked.analysis.renameable(text.offset(position))?;
     check_place(checked, found.symbol)?;
@@ -19,12 +36,11 @@ pub fn prepare(checked: &Checked, position: Position) -> Result<PrepareRenameRes
 }
 
 /// Declarations of the standard library cannot be changed.
-fn check_place(checked: &Checked, symbol: starl_lang::check::Symbol) -> Result<(), String> {
+fn check_place(checked: &Checked, symbol: Symbol) -> Result<(), Refused> {
     let site = checked.analysis.definition(symbol);
     match site {
         Some(site) if checked.uri_of(site.file).is_none() => {
-            let name = checked.analysis.name_at(site);
-            Err(format!("`{name}` is part of the standard library"))
+            Err(Refused::Standard(checked.analysis.name_at(site)))
         }
         _ => Ok(()),
     }
@@ -39,7 +55,7 @@ pub fn rename(
     checked: &Rc<Checked>,
     position: Position,
     name: &str,
-) -> Result<WorkspaceEdit, String> {
+) -> Result<WorkspaceEdit, Refused> {
     let text = Text::new(checked.analysis.text());
     let found = checked.analysis.renameable(text.offset(position))?;
     check_place(checked, found.symbol)?;
@@ -48,9 +64,12 @@ pub fn rename(
     for (user, symbol) in users(documents, checked, found.symbol) {
         let libraries = documents.libraries(&user.uri);
         let renamed = user.analysis.rename(symbol, name, &libraries);
-        let renamed = renamed.map_err(|reason| match user.uri == checked.uri {
-            true => reason,
-            false => format!("in {}: {reason}", file_name(&user)),
+        let renamed = renamed.map_err(|error| match user.uri == checked.uri {
+            true => Refused::Here(error),
+            false => {
+                let file = file_name(&user);
+                Refused::Elsewhere { file, error }
+            }
         })?;
         for file in renamed.files {
             let Some(uri) = user.uri_of(file.file) else {

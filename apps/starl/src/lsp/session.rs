@@ -63,7 +63,7 @@ impl Session {
             Incoming::Message(message) => message,
             Incoming::Malformed(problem) => {
                 self.output
-                    .answer(&Value::Null, Err((Fault::Parse, problem)))?;
+                    .answer(&Value::Null, Err((Fault::Parse, problem.to_string())))?;
                 return Ok(Step::Continue);
             }
         };

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use std::io::{self, BufRead, Read, Write};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
+use thiserror::Error;
 
 /// The longest message that is read, in bytes.
 const LONGEST: usize = 256 << 20;
@@ -39,7 +40,22 @@ pub enum Incoming {
     /// A message.
     Message(Value),
     /// A malformed message, with the problem.
-    Malformed(String),
+    Malformed(Malformed),
+}
+
+/// Why a message is malformed.
+#[derive(Debug, Error)]
+pub enum Malformed {
+    #[error("a message of {0} bytes is too long")]
+    TooLong(usize),
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    #[error("a header without Content-Length")]
+    NoLength,
+    #[error("a header with the line {0:?}")]
+    Header(String),
+    #[error("a message of the length {0:?}")]
+    Length(String),
 }
 
 /// Reads messages from standard input in a thread of its own, until that ends.
@@ -64,8 +80,7 @@ fn read(input: &mut impl BufRead) -> Option<Incoming> {
     };
     if length > LONGEST {
         io::copy(&mut input.take(length as u64), &mut io::sink()).ok()?;
-        let problem = format!("a message of {length} bytes is too long");
-        return Some(Incoming::Malformed(problem));
+        return Some(Incoming::Malformed(Malformed::TooLong(length)));
     }
     let mut bytes = Vec::new();
     input.take(length as u64).read_to_end(&mut bytes).ok()?;
@@ -74,12 +89,12 @@ fn read(input: &mut impl BufRead) -> Option<Incoming> {
     }
     Some(match serde_json::from_slice(&bytes) {
         Ok(message) => Incoming::Message(message),
-        Err(error) => Incoming::Malformed(error.to_string()),
+        Err(error) => Incoming::Malformed(error.into()),
     })
 }
 
 /// The length that the header says; none at the end of the input.
-fn header(input: &mut impl BufRead) -> Option<Result<usize, String>> {
+fn header(input: &mut impl BufRead) -> Option<Result<usize, Malformed>> {
     let mut length = None;
     loop {
         let mut line = Vec::new();
@@ -91,18 +106,15 @@ fn header(input: &mut impl BufRead) -> Option<Result<usize, String>> {
         let line = String::from_utf8_lossy(&line);
         let line = line.trim_end_matches(['\r', '\n']);
         if line.is_empty() {
-            match length {
-                Some(length) => return Some(Ok(length)),
-                None => return Some(Err("a header without Content-Length".to_string())),
-            }
+            return Some(length.ok_or(Malformed::NoLength));
         }
         let Some((name, value)) = line.split_once(':') else {
-            return Some(Err(format!("a header with the line {line:?}")));
+            return Some(Err(Malformed::Header(line.into())));
         };
         if name.trim().eq_ignore_ascii_case("Content-Length") {
             match value.trim().parse() {
                 Ok(value) => length = Some(value),
-                Err(_) => return Some(Err(format!("a message of the length {value:?}"))),
+                Err(_) => return Some(Err(Malformed::Length(value.into()))),
             }
         }
     }
@@ -150,7 +162,7 @@ mod tests {
         std::iter::from_fn(|| read(&mut bytes))
             .map(|incoming| match incoming {
                 Incoming::Message(message) => Ok(message),
-                Incoming::Malformed(problem) => Err(problem),
+                Incoming::Malformed(problem) => Err(problem.to_string()),
             })
             .collect()
     }

@@ -1,6 +1,5 @@
 //! The part of the world that is shown: where robots move, with all of the world if that is not much larger.
 
-use super::frame::Frame;
 use super::{PlotData, RobotPath};
 use starl_core::Point;
 use starl_core::event::MarkShape;
@@ -35,10 +34,7 @@ pub fn of(data: &PlotData) -> Extent {
         whole.include(Point::ZERO, 1.0);
     }
     let has_moved = |robot: &RobotPath| {
-        let mut shown = robot
-            .path
-            .iter()
-            .filter(|place| Frame::shows(&place.position));
+        let mut shown = robot.path.iter().filter(|place| shows(&place.position));
         let first = shown.next();
         shown.any(|place| Some(place.position) != first.map(|first| first.position))
     };
@@ -83,7 +79,7 @@ impl Around {
     }
 
     fn include(&mut self, point: Point, reach: f64) {
-        if Frame::shows(&point) && reach.abs() < 1e12 {
+        if shows(&point) && reach.abs() < 1e12 {
             let (low, high) = (&mut self.low, &mut self.high);
             *low = (low.0.min(point.x - reach), low.1.min(point.y - reach));
             *high = (high.0.max(point.x + reach), high.1.max(point.y + reach));
@@ -153,4 +149,9 @@ fn world(data: &PlotData) -> Around {
         around.include(thing.position, 0.0);
     }
     around
+}
+
+/// Whether a point can be shown: beyond this, differences of coordinates mean nothing any more.
+pub fn shows(point: &Point) -> bool {
+    point.x.abs() < 1e12 && point.y.abs() < 1e12
 }

@@ -58,11 +58,6 @@ impl Frame {
         frame
     }
 
-    /// Whether a point can be shown: beyond this, differences of coordinates mean nothing any more.
-    pub fn shows(point: &Point) -> bool {
-        point.x.abs() < 1e12 && point.y.abs() < 1e12
-    }
-
     /// Whether a point is in the shown part of the world.
     pub fn has(&self, point: &Point) -> bool {
         let within = |low: f64, at: f64, high: f64| low <= at && at <= high;

@@ -1,10 +1,11 @@
 //! The legend, to the right of the world, in as many columns as it takes.
 
 use super::drawing::{Anchor, Drawing, Fill, Shape, Spot, Stroke};
+use super::extent;
 use super::frame::Frame;
 use super::labels::{short_name, text_width};
+use super::looks::{Looks, MOST_COLORS, body_look};
 use super::palette::{INK, OBSTACLE, OBSTACLE_EDGE, WAY_POINT};
-use super::scene::{Looks, MOST_COLORS, body_look};
 use super::{PlotData, ranges, signs, times};
 use crate::console::grouped;
 
@@ -101,7 +102,7 @@ fn robots(data: &PlotData, looks: &Looks) -> Vec<Row> {
 /// How motion, detectors and radio are drawn.
 fn motion(data: &PlotData) -> Vec<Row> {
     let mut rows = Vec::new();
-    let shows = |path: &[super::Place]| path.iter().any(|place| Frame::shows(&place.position));
+    let shows = |path: &[super::Place]| path.iter().any(|place| extent::shows(&place.position));
     if !data.robots.iter().any(|robot| shows(&robot.path)) {
         return rows;
     }

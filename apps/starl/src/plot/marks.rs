@@ -2,6 +2,7 @@
 
 use super::RobotPath;
 use super::drawing::{Anchor, Drawing, Fill, Shape, Spot, Stroke};
+use super::extent;
 use super::frame::Frame;
 use super::labels::Labels;
 use starl_core::event::MarkShape;
@@ -22,13 +23,13 @@ pub fn draw(
     for (label, mark) in &robot.marks {
         match mark {
             MarkShape::Nothing => {}
-            MarkShape::Dot(at) if Frame::shows(at) => drawing.push(Shape::Circle {
+            MarkShape::Dot(at) if extent::shows(at) => drawing.push(Shape::Circle {
                 center: frame.spot(*at),
                 radius: stroke.width,
                 fill: Some(Fill::solid(stroke.color)),
                 stroke: None,
             }),
-            MarkShape::Circle { center, radius } if Frame::shows(center) && *radius < 1e12 => {
+            MarkShape::Circle { center, radius } if extent::shows(center) && *radius < 1e12 => {
                 drawing.push(Shape::Circle {
                     center: frame.spot(*center),
                     radius: radius.max(0.0) * frame.scale,
@@ -36,13 +37,13 @@ pub fn draw(
                     stroke: Some(stroke),
                 });
             }
-            MarkShape::Line(points) if points.iter().all(Frame::shows) => {
+            MarkShape::Line(points) if points.iter().all(extent::shows) => {
                 let spots: Vec<Spot> = points.iter().map(|&point| frame.spot(point)).collect();
                 if spots.len() > 1 {
                     drawing.line(spots, stroke);
                 }
             }
-            MarkShape::Text(at) if Frame::shows(at) => {
+            MarkShape::Text(at) if extent::shows(at) => {
                 let (at, size) = (frame.spot(*at), 13.0);
                 labels.keep_off_text(at, label, size);
                 drawing.push(Shape::Text {

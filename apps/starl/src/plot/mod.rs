@@ -12,6 +12,7 @@ mod extent;
 mod frame;
 mod labels;
 mod legend;
+mod looks;
 mod marks;
 pub mod palette;
 mod ranges;
@@ -119,10 +120,10 @@ pub fn png(data: &PlotData) -> Vec<u8> {
 }
 
 /// Any other drawing in the format of a file's name.
-pub fn file(drawing: &drawing::Drawing, picture: crate::outputs::Picture) -> Vec<u8> {
+pub fn file(drawing: &drawing::Drawing, picture: crate::picture::Picture) -> Vec<u8> {
     match picture {
-        crate::outputs::Picture::Svg => vector::svg(drawing).into_bytes(),
+        crate::picture::Picture::Svg => vector::svg(drawing).into_bytes(),
         #[cfg(feature = "png")]
-        crate::outputs::Picture::Png => raster::png(drawing, 2.0),
+        crate::picture::Picture::Png => raster::png(drawing, 2.0),
     }
 }

@@ -2,8 +2,9 @@
 
 use super::PlotData;
 use super::drawing::{Drawing, Fill, Shape, Stroke};
+use super::extent;
 use super::frame::Frame;
-use super::scene::{Looks, MOST_COLORS};
+use super::looks::{Looks, MOST_COLORS};
 
 /// Line of a circle of radio range; `color` is that of the robot.
 pub fn radio(color: [u8; 3]) -> Stroke {
@@ -40,7 +41,7 @@ pub fn draw(drawing: &mut Drawing, frame: &Frame, data: &PlotData, looks: &Looks
     }
     for (index, robot) in data.robots.iter().enumerate() {
         let mut shown = robot.path.iter().rev();
-        let Some(last) = shown.find(|place| Frame::shows(&place.position)) else {
+        let Some(last) = shown.find(|place| extent::shows(&place.position)) else {
             continue;
         };
         let color = looks.stroke(index, robot).color;

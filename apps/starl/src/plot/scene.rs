@@ -4,63 +4,14 @@
 use super::drawing::{Anchor, Drawing, Fill, Shape as Drawn, Spot, Stroke};
 use super::frame::Frame;
 use super::labels::{Labels, short_name, text_width};
-use super::palette::{self, BLACK, INK, OBSTACLE, OBSTACLE_EDGE};
+use super::looks::{Looks, body_look};
+use super::palette::{BLACK, INK, OBSTACLE, OBSTACLE_EDGE};
 use super::{PlotData, RobotPath};
-use super::{legend, marks, ranges, signs, times};
+use super::{extent, legend, marks, ranges, signs, times};
 use starl_core::{Obstacle, Point, Shape};
-
-/// Larger fleets are coloured by model: more colours cannot be distinguished.
-pub const MOST_COLORS: usize = 24;
 
 /// Points of a path nearer to each other than this are drawn as one.
 const NEAREST: f64 = 0.4;
-
-/// The look of the robots.
-pub struct Looks {
-    /// The models in the order of their first robots.
-    pub models: Vec<String>,
-    /// Whether robots of a model share a colour.
-    pub by_model: bool,
-    count: usize,
-}
-
-impl Looks {
-    /// The looks of this fleet.
-    pub fn of(robots: &[RobotPath]) -> Looks {
-        let mut models: Vec<String> = Vec::new();
-        for robot in robots {
-            if !models.contains(&robot.model) {
-                models.push(robot.model.clone());
-            }
-        }
-        Looks {
-            models,
-            by_model: robots.len() > MOST_COLORS,
-            count: robots.len(),
-        }
-    }
-
-    /// The line with which a robot's path is drawn.
-    pub fn stroke(&self, index: usize, robot: &RobotPath) -> Stroke {
-        let color = if self.by_model {
-            let model = self.models.iter().position(|model| *model == robot.model);
-            palette::color(model.unwrap_or(0), self.models.len())
-        } else {
-            palette::color(index, self.count)
-        };
-        let (width, opacity) = match self.count {
-            count if count <= MOST_COLORS => (1.8, 1.0),
-            count if count <= 300 => (1.2, 0.7),
-            _ => (0.8, 0.5),
-        };
-        Stroke {
-            color,
-            width,
-            opacity,
-            dashed: robot.flies,
-        }
-    }
-}
 
 /// Draws all of it.
 pub fn draw(data: &PlotData) -> Drawing {
@@ -121,7 +72,7 @@ fn draw_obstacle(drawing: &mut Drawing, frame: &Frame, obstacle: &Obstacle) {
             vec![*low, corner(high.x, low.y), *high, corner(low.x, high.y)]
         }
         Shape::Circle { center, radius, .. } => {
-            if Frame::shows(center) && radius.abs() < 1e12 {
+            if extent::shows(center) && radius.abs() < 1e12 {
                 let (center, radius) = (frame.spot(*center), radius * frame.scale);
                 drawing.push(Drawn::Circle {
                     center,
@@ -133,7 +84,7 @@ fn draw_obstacle(drawing: &mut Drawing, frame: &Frame, obstacle: &Obstacle) {
             return;
         }
     };
-    if points.iter().all(Frame::shows) {
+    if points.iter().all(extent::shows) {
         let points: Vec<Spot> = points.into_iter().map(|point| frame.spot(point)).collect();
         if points.len() == 2 {
             return drawing.line(points, Stroke::solid(OBSTACLE_EDGE, 3.0));
@@ -153,7 +104,7 @@ fn draw_path(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: St
             .path
             .iter()
             .map(|place| place.position)
-            .filter(Frame::shows)
+            .filter(extent::shows)
             .map(|position| frame.spot(position)),
     );
     if spots.len() > 1 {
@@ -184,7 +135,7 @@ fn thinned(spots: impl Iterator<Item = Spot>) -> Vec<Spot> {
 /// The body at the start, hollow, and at the end, full, both to scale unless too small to see.
 fn draw_bodies(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: Stroke) {
     let places = robot.path.iter().map(|place| place.position);
-    let mut places = places.filter(Frame::shows);
+    let mut places = places.filter(extent::shows);
     let Some(first) = places.next() else { return };
     let last = places.next_back().unwrap_or(first);
     let smallest = if stroke.opacity < 1.0 { 1.0 } else { 4.0 };
@@ -207,20 +158,4 @@ fn draw_bodies(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: 
         fill: Some(fill),
         stroke: Some(outline),
     });
-}
-
-/// How a body is filled at the end, and its outline.
-pub fn body_look(stroke: Stroke) -> (Fill, Stroke) {
-    let outline = Stroke {
-        width: stroke.width.min(1.5),
-        dashed: false,
-        ..stroke
-    };
-    (
-        Fill {
-            color: stroke.color,
-            opacity: stroke.opacity * 0.3,
-        },
-        outline,
-    )
 }

@@ -1,10 +1,11 @@
 //! Dots on the paths at regular times, so that a picture shows where each robot was at the same moment.
 
 use super::drawing::{Drawing, Fill, Shape, Spot, Stroke};
+use super::extent;
 use super::frame::Frame;
 use super::labels::{Labels, Style};
+use super::looks::{Looks, MOST_COLORS};
 use super::palette::WHITE;
-use super::scene::{Looks, MOST_COLORS};
 use super::{Place, PlotData};
 use starl_core::{Point, Time};
 
@@ -73,7 +74,7 @@ pub fn draw(
                 continue;
             };
             let spot = frame.spot(position);
-            if !Frame::shows(&position) || before.is_some_and(|last| is_near(last, spot)) {
+            if !extent::shows(&position) || before.is_some_and(|last| is_near(last, spot)) {
                 continue;
             }
             before = Some(spot);

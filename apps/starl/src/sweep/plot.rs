@@ -3,7 +3,7 @@
 
 use super::metrics::Shown;
 use super::report::{Report, interval};
-use crate::outputs::Picture;
+use crate::picture::Picture;
 use crate::plot::drawing::{Anchor, Color, Drawing, Fill, Shape, Spot, Stroke};
 use crate::plot::palette::{GRID, INK, color};
 use crate::plot::{self, label, step_for, text_width, ticks};

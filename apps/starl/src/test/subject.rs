@@ -31,7 +31,7 @@ impl Target {
             ..
         } = selection;
         let subject = Subject::new(&application, arguments.demand_goal)
-            .map_err(|error| start_error(&application, &error))?;
+            .map_err(|error| start_error(&application, error))?;
         let target = Target {
             name: name.to_string(),
             origin,

@@ -95,7 +95,7 @@ fn other_programs_are_rejected_with_a_reason() {
         ),
         (
             &["explain", "missing.starl"],
-            "there is no example or program called this",
+            "missing.starl: cannot be read: there is no such file",
         ),
         (&["explain", "raze"], "race"),
         (&["explain", "."], "is a folder"),

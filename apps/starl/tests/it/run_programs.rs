@@ -300,6 +300,10 @@ fn other_files_are_rejected() {
             "lost.starl: cannot be read: there is no such file",
         ),
         (
+            &["run", "./missing.toml"],
+            "./missing.toml: cannot be read: there is no such file; check the path",
+        ),
+        (
             &["run", "scenario.toml"],
             "scenario.toml:1:11: program: \"lost.starl\" cannot be read",
         ),

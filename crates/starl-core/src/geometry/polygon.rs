@@ -9,8 +9,8 @@ use super::segment::{
 };
 use crate::math;
 use alloc::vec::Vec;
-use core::fmt;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// Coordinates beyond this would overflow when squared, metres.
 const FARTHEST: f64 = 1e150;
@@ -23,16 +23,23 @@ pub struct ConvexPolygon {
 }
 
 /// Why a list of points is not a [`ConvexPolygon`]. Indices count from zero in the list as given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum PolygonError {
     /// Fewer than two points.
+    #[error("a polygon needs at least three corners, a wall its two ends")]
     TooFew,
     /// A coordinate is infinite, not a number, or too large to compute with.
+    #[error(
+        "point {index} of the polygon has a coordinate that is not a usable number: give finite metres"
+    )]
     NotFinite {
         /// The point.
         index: usize,
     },
     /// Two points are at the same place.
+    #[error(
+        "points {first} and {second} of the polygon are the same: leave one out (the last need not repeat the first)"
+    )]
     Repeated {
         /// The earlier one.
         first: usize,
@@ -40,50 +47,20 @@ pub enum PolygonError {
         second: usize,
     },
     /// More than two points, all on one line.
+    #[error("the points of the polygon lie on one line: give only the two ends for a wall")]
     Degenerate,
     /// The outline turns the other way here.
+    #[error(
+        "the polygon is not convex at point {index}: list the corners in order along the outline, and split a hollow shape into convex parts"
+    )]
     NotConvex {
         /// The corner.
         index: usize,
     },
     /// The outline goes round more than once, like a star.
+    #[error("the outline of the polygon crosses itself: list the corners in order, once round")]
     SelfCrossing,
 }
-
-impl fmt::Display for PolygonError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PolygonError::TooFew => {
-                write!(
-                    f,
-                    "a polygon needs at least three corners, a wall its two ends"
-                )
-            }
-            PolygonError::NotFinite { index } => write!(
-                f,
-                "point {index} of the polygon has a coordinate that is not a usable number: give finite metres"
-            ),
-            PolygonError::Repeated { first, second } => write!(
-                f,
-                "points {first} and {second} of the polygon are the same: leave one out (the last need not repeat the first)"
-            ),
-            PolygonError::Degenerate => write!(
-                f,
-                "the points of the polygon lie on one line: give only the two ends for a wall"
-            ),
-            PolygonError::NotConvex { index } => write!(
-                f,
-                "the polygon is not convex at point {index}: list the corners in order along the outline, and split a hollow shape into convex parts"
-            ),
-            PolygonError::SelfCrossing => write!(
-                f,
-                "the outline of the polygon crosses itself: list the corners in order, once round"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for PolygonError {}
 
 impl ConvexPolygon {
     /// The polygon with these corners, in either orientation; heights are dropped. Two points make a

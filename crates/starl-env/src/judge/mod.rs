@@ -13,7 +13,7 @@ use host::EnvironmentHost;
 use quantity::{Quantities, Scratch};
 use starl_core::RobotId;
 use starl_lang::machine::{Limits, Machine, Object, State, Workspace};
-use std::fmt;
+use thiserror::Error;
 use wording::Expression;
 pub use wording::{Column, Constant, Kind, Wording, WordingError};
 
@@ -47,7 +47,8 @@ pub struct Bench<'a> {
 }
 
 /// An expression that cannot be evaluated.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{part}: `{excerpt}` fails for robot {robot} in environment {environment}: {reason}")]
 pub struct JudgeError {
     /// The environment.
     pub environment: usize,
@@ -60,24 +61,6 @@ pub struct JudgeError {
     /// Why.
     pub reason: String,
 }
-
-impl fmt::Display for JudgeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let JudgeError {
-            environment,
-            robot,
-            part,
-            excerpt,
-            reason,
-        } = self;
-        write!(
-            f,
-            "{part}: `{excerpt}` fails for robot {robot} in environment {environment}: {reason}"
-        )
-    }
-}
-
-impl std::error::Error for JudgeError {}
 
 /// Room for work, used over and over.
 pub struct Work {

@@ -5,8 +5,8 @@ use super::knowledge::Knowledge;
 use super::lists::List;
 use super::{Entry, Observed};
 use alloc::collections::BTreeMap;
-use core::fmt;
 use starl_core::{RobotId, Time};
+use thiserror::Error;
 
 /// Reads one robot's journal from the messages of a trace.
 #[derive(Clone, Debug)]
@@ -17,16 +17,9 @@ pub struct Reader {
 }
 
 /// The bytes are not a journal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("its bytes are not those of a journal")]
 pub struct Damaged;
-
-impl fmt::Display for Damaged {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("its bytes are not those of a journal")
-    }
-}
-
-impl core::error::Error for Damaged {}
 
 impl Reader {
     /// A reader of this robot's entries.

@@ -2,17 +2,12 @@
 
 use alloc::format;
 
-use super::fit::{number_of, same};
-use super::operator::joined;
-use super::report::{around, broken};
+use super::fit::{SAME_NAME, number_of, same};
+use super::report::{around, broken, joined};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
 use crate::syntax::ast::BinaryOperator;
-
-/// The note on two different types with the same name.
-pub(super) const SAME_NAME: &str =
-    "these are two different types; declare one with a name, and use it for both";
 
 impl Checker {
     /// An operator of arithmetic, between values that were checked.

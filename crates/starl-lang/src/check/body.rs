@@ -4,7 +4,6 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::Purity;
-use super::dimension::Dimension;
 use crate::diagnostic::{Code, Span};
 use crate::ir::{Local, LocalId, SharedId, Type, VariableId};
 
@@ -168,5 +167,30 @@ impl Body {
         let pairs = self.unread.iter().zip(&self.locals);
         let unread = pairs.filter(|(unread, _)| !unread.is_read);
         unread.filter_map(|(unread, local)| Some((unread.warning?, local)))
+    }
+}
+
+/// A dimension of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Dimension {
+    /// Metres.
+    Length,
+    /// Radians.
+    Angle,
+}
+
+impl Dimension {
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Length => "length",
+            Self::Angle => "angle",
+        }
+    }
+
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Angle => "rad",
+        }
     }
 }

@@ -3,8 +3,7 @@
 use alloc::boxed::Box;
 
 use super::fit::same;
-use super::operator::joined;
-use super::report::made;
+use super::report::{joined, made};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};

@@ -5,21 +5,13 @@
 
 use alloc::format;
 
+use super::body::Dimension;
 use super::report::article;
 use super::scope::Entity;
 use super::state::Checker;
 use super::tables::Builtin;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Place, RobotMember, Root, Type};
-
-/// A dimension of numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Dimension {
-    /// Metres.
-    Length,
-    /// Radians.
-    Angle,
-}
 
 /// The known facts of a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,22 +20,6 @@ struct Measure {
     dimension: Option<Dimension>,
     /// Whether it consists of literals, so that one without a unit has none on purpose.
     is_written: bool,
-}
-
-impl Dimension {
-    fn text(self) -> &'static str {
-        match self {
-            Self::Length => "length",
-            Self::Angle => "angle",
-        }
-    }
-
-    fn unit(self) -> &'static str {
-        match self {
-            Self::Length => "m",
-            Self::Angle => "rad",
-        }
-    }
 }
 
 impl Measure {

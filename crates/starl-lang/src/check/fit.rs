@@ -11,6 +11,10 @@ use crate::diagnostic::{Code, Diagnostic, Fix, Span};
 use crate::ir::{Expression, ExpressionKind, Type};
 use crate::syntax::ast;
 
+/// The note on two different types with the same name.
+pub(super) const SAME_NAME: &str =
+    "these are two different types; declare one with a name, and use it for both";
+
 /// Whether the types are equal, where errors equal every type.
 pub(super) fn same(a: &Type, b: &Type) -> bool {
     match (a, b) {
@@ -160,7 +164,7 @@ impl Checker {
             _ => {
                 let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
                 if self.name_of(found) == self.name_of(expected) {
-                    return problem.note(super::arithmetic::SAME_NAME);
+                    return problem.note(SAME_NAME);
                 }
                 problem
             }

@@ -2,6 +2,7 @@
 
 use alloc::string::String;
 use alloc::vec::Vec;
+use starl_core::FileError;
 
 /// Finds libraries and models.
 pub trait Libraries {
@@ -11,10 +12,10 @@ pub trait Libraries {
     /// The bytes of the model at this path, relative to the program.
     ///
     /// # Errors
-    /// Why it cannot be read, in words.
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+    /// Why it cannot be read.
+    fn model(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let _ = path;
-        Err("there is no such file".into())
+        Err(FileError::Missing)
     }
 
     /// The names of those that can be determined, for editors to suggest.

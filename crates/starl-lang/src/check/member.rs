@@ -233,7 +233,7 @@ impl Checker {
                 let fields = &self.program[id].fields;
                 if let Some(number) = fields.iter().position(|field| field.name == name) {
                     let ty = fields[number].ty.clone();
-                    self.resolve_field(at, id, number as u32);
+                    self.resolve(at, Symbol::Field(id, number as u32));
                     let kind = ExpressionKind::Field {
                         base: Box::new(base),
                         field: number as u32,

@@ -6,18 +6,11 @@ use alloc::vec::Vec;
 
 use super::Libraries;
 use super::report::counted;
-use super::state::Checker;
+use super::state::{Checker, Evaluation};
 use super::tables::{Shape, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, Expression, ExpressionKind, Model, Operator};
 use starl_policy::Network;
-
-/// An evaluation of a model with a list of known length.
-pub(super) struct Evaluation {
-    binding: BindingId,
-    numbers: usize,
-    span: Span,
-}
 
 impl Checker {
     /// Notes what a primitive with a model is asked.

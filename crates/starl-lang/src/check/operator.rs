@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use alloc::format;
 
 use super::comparison::comparable;
-use super::report::{broken, made};
+use super::report::{broken, joined, made};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
@@ -100,19 +100,4 @@ impl Checker {
         };
         made(kind, ty, span)
     }
-}
-
-pub(super) fn joined(
-    operator: Operator,
-    left: Expression,
-    right: Expression,
-    ty: Type,
-    span: Span,
-) -> Expression {
-    let kind = ExpressionKind::Binary {
-        operator,
-        left: Box::new(left),
-        right: Box::new(right),
-    };
-    made(kind, ty, span)
 }

@@ -259,7 +259,8 @@ impl Checker {
                 let fields = &self.program[id].fields;
                 if let Some(number) = fields.iter().position(|field| field.name == name) {
                     let ty = fields[number].ty.clone();
-                    self.resolve_field(word.text_range().into(), id, number as u32);
+                    let part = Symbol::Field(id, number as u32);
+                    self.resolve(word.text_range().into(), part);
                     return self.part(whole, Step::Field(number as u32), ty, span);
                 }
             }

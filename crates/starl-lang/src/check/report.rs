@@ -1,15 +1,14 @@
 //! How the checker reports problems: consequences of a reported error are not reported.
 
-use alloc::collections::BTreeSet;
+use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::CheckedFile;
 use super::asked;
 use super::state::Checker;
-use crate::diagnostic::{Code, Diagnostic, Edit, Fix, LineIndex, Severity, Span, closest};
-use crate::ir::{Expression, ExpressionKind, Type};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, Span, closest};
+use crate::ir::{Expression, ExpressionKind, Operator, Type};
 
 impl Checker {
     /// Reports a problem of the current file.
@@ -44,21 +43,6 @@ impl Checker {
     pub fn may_be_unread(&self, word: &str) -> bool {
         self.files[self.file as usize].unread.contains(word)
     }
-}
-
-/// Drops problems in lines with syntax errors: they may disappear with them. A statement without effect has no syntax
-/// error.
-pub(super) fn forget_consequences(file: &mut CheckedFile) {
-    let index = LineIndex::new(&file.source);
-    let lines =
-        |problem: &Diagnostic| index.line(problem.span.start)..=index.line(problem.span.end);
-    let errors = file.parse.diagnostics().iter();
-    let unread: BTreeSet<u32> = errors
-        .filter(|problem| problem.severity() == Severity::Error)
-        .filter(|problem| problem.code != Code::NoEffect)
-        .flat_map(lines)
-        .collect();
-    (file.diagnostics).retain(|problem| !lines(problem).any(|line| unread.contains(&line)));
 }
 
 /// An expression with an error that was reported.
@@ -128,4 +112,20 @@ pub(super) fn article(name: &str) -> String {
 /// The type of a call that cannot stand where it does; one that gives nothing needs no second report.
 pub(super) fn something(ty: Option<Type>) -> Type {
     ty.filter(|ty| *ty != Type::Nothing).unwrap_or(Type::Error)
+}
+
+/// Two expressions with an operator between them.
+pub(super) fn joined(
+    operator: Operator,
+    left: Expression,
+    right: Expression,
+    ty: Type,
+    span: Span,
+) -> Expression {
+    let kind = ExpressionKind::Binary {
+        operator,
+        left: Box::new(left),
+        right: Box::new(right),
+    };
+    made(kind, ty, span)
 }

@@ -4,9 +4,7 @@
 //! a name twice, there are two records. Names in a part with errors are recorded if they are known.
 
 use super::scope::Entity;
-use super::state::Checker;
 use super::tables::{Builtin, Event, Member, Method, PRIMITIVES, Primitive};
-use crate::diagnostic::Span;
 use crate::ir::{
     BindingId, ConstantId, EnumId, FunctionId, ParameterId, RecordId, SharedId, Site, Type,
     VariableId,
@@ -100,45 +98,6 @@ pub struct Resolutions {
     pub uses: alloc::vec::Vec<(Site, Symbol)>,
     /// Locals and parameters of functions where they are declared, with their types.
     pub locals: alloc::vec::Vec<(Site, Type)>,
-}
-
-impl Checker {
-    /// Records the meaning of a name in the current file.
-    pub fn resolve(&mut self, span: Span, symbol: Symbol) {
-        let site = self.site(span);
-        self.resolutions.uses.push((site, symbol));
-    }
-
-    /// The same for a declaration.
-    pub fn resolve_entity(&mut self, span: Span, entity: Entity) {
-        if let Some(symbol) = entity.symbol() {
-            self.resolve(span, symbol);
-        }
-    }
-
-    /// The same for a field of a record; the part of a tuple is declared nowhere.
-    pub fn resolve_field(&mut self, span: Span, record: RecordId, field: u32) {
-        if !self.program[record].is_tuple() {
-            self.resolve(span, Symbol::Field(record, field));
-        }
-    }
-
-    /// The same for a local of the present body.
-    pub fn resolve_local(&mut self, span: Span, local: crate::ir::LocalId) {
-        let site = self.site(self.body.locals[local.index()].span);
-        self.resolve(span, Symbol::Local(site));
-    }
-
-    /// Notes the locals of a body that was checked.
-    pub fn resolve_locals(&mut self, locals: &[crate::ir::Local]) {
-        for local in locals {
-            // The robot that a property is about by itself has no name in the text.
-            if self.text(local.span) == local.name {
-                let site = self.site(local.span);
-                self.resolutions.locals.push((site, local.ty.clone()));
-            }
-        }
-    }
 }
 
 impl Entity {

@@ -4,16 +4,13 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::body::Body;
-use super::dimension::Dimension;
-use super::model::Evaluation;
-use super::report::forget_consequences;
+use super::body::{Body, Dimension};
 use super::resolution::Resolutions;
 use super::scope::{Entity, Scope};
 use super::surroundings::Surroundings;
 use super::{Checked, CheckedFile};
-use crate::diagnostic::{Code, Span, has_errors};
-use crate::ir::{ConstantId, EnumId, FunctionId, Program, RecordId, Site, Type};
+use crate::diagnostic::{Code, Diagnostic, LineIndex, Severity, Span, has_errors};
+use crate::ir::{BindingId, ConstantId, EnumId, FunctionId, Program, RecordId, Site, Type};
 use crate::syntax::ast;
 
 /// A file with its declarations.
@@ -86,6 +83,13 @@ pub(super) struct Usage {
     pub handled: BTreeSet<u32>,
     /// Libraries that are used, by the file that imports and the file of the library.
     pub imports: BTreeSet<(u32, u32)>,
+}
+
+/// An evaluation of a model with a list of known length.
+pub(super) struct Evaluation {
+    pub binding: BindingId,
+    pub numbers: usize,
+    pub span: Span,
 }
 
 /// The checker.
@@ -211,4 +215,19 @@ impl Checker {
             }
         }
     }
+}
+
+/// Drops problems in lines with syntax errors: they may disappear with them. A statement without effect has no syntax
+/// error.
+fn forget_consequences(file: &mut CheckedFile) {
+    let index = LineIndex::new(&file.source);
+    let lines =
+        |problem: &Diagnostic| index.line(problem.span.start)..=index.line(problem.span.end);
+    let errors = file.parse.diagnostics().iter();
+    let unread: BTreeSet<u32> = errors
+        .filter(|problem| problem.severity() == Severity::Error)
+        .filter(|problem| problem.code != Code::NoEffect)
+        .flat_map(lines)
+        .collect();
+    (file.diagnostics).retain(|problem| !lines(problem).any(|line| unread.contains(&line)));
 }

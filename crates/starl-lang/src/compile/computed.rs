@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::body::Body;
 use super::constant::folded;
-use super::link;
+use super::join::join;
 use super::problem::{Compiled, Problem};
 use super::unit::Unit;
 use crate::diagnostic;
@@ -31,7 +31,7 @@ pub(super) fn computed(
     locals: &[Local],
     site: Site,
 ) -> Compiled<u64> {
-    if let Some(known) = folded(unit, expression) {
+    if let Some(known) = folded(&unit.known, expression) {
         return Ok(known);
     }
     let failed = |why: &dyn core::fmt::Display| {
@@ -69,7 +69,7 @@ fn alone(
     let function = body.finish("value", Vec::new(), Vec::from([result]));
     unit.define(number, Ok(function));
     unit.compile_routines();
-    link::join(unit, Bytecode::default()).map_err(|problems| {
+    join(unit, Bytecode::default()).map_err(|problems| {
         let first = problems.into_iter().next();
         first.map_or_else(
             || {

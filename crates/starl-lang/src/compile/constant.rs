@@ -2,21 +2,20 @@
 
 use core::f64::consts::PI;
 
-use super::unit::Unit;
 use crate::check::Builtin;
 use crate::ir::{self, Expression, ExpressionKind, Operator};
 
-/// The value of an expression if it is a known scalar. Expressions that would fail are left to run time.
-pub(super) fn folded(unit: &Unit<'_>, expression: &Expression) -> Option<u64> {
+/// The value of an expression if it is a scalar, where these constants are known. Expressions that would fail are left to run time.
+pub(super) fn folded(known: &[Option<u64>], expression: &Expression) -> Option<u64> {
     match &expression.kind {
         ExpressionKind::Bool(value) => Some(u64::from(*value)),
         ExpressionKind::Int(value) => Some(*value as u64),
         ExpressionKind::Float(value) => float(*value),
         ExpressionKind::Duration(value) => i64::try_from(*value).ok().map(|_| *value),
         ExpressionKind::Variant(number) => Some(u64::from(*number)),
-        ExpressionKind::Constant(id) => unit.known_constant(*id),
+        ExpressionKind::Constant(id) => known[id.index()],
         ExpressionKind::Negate(value) => {
-            let bits = folded(unit, value)?;
+            let bits = folded(known, value)?;
             match value.ty {
                 ir::Type::Int => (bits as i64).checked_neg().map(|value| value as u64),
                 ir::Type::Float => float(-f64::from_bits(bits)),
@@ -32,7 +31,7 @@ pub(super) fn folded(unit: &Unit<'_>, expression: &Expression) -> Option<u64> {
             arguments,
             ..
         } => {
-            let number = folded(unit, arguments.first()?.as_ref()?)?;
+            let number = folded(known, arguments.first()?.as_ref()?)?;
             float(number as i64 as f64)
         }
         ExpressionKind::Binary {
@@ -41,7 +40,7 @@ pub(super) fn folded(unit: &Unit<'_>, expression: &Expression) -> Option<u64> {
             right,
         } => match (&left.ty, &right.ty) {
             (ir::Type::Int, ir::Type::Int) => {
-                let (left, right) = (folded(unit, left)? as i64, folded(unit, right)? as i64);
+                let (left, right) = (folded(known, left)? as i64, folded(known, right)? as i64);
                 let result = match operator {
                     Operator::Add => left.checked_add(right),
                     Operator::Subtract => left.checked_sub(right),
@@ -51,7 +50,7 @@ pub(super) fn folded(unit: &Unit<'_>, expression: &Expression) -> Option<u64> {
                 result.map(|value| value as u64)
             }
             (ir::Type::Float, ir::Type::Float) => {
-                let (left, right) = (folded(unit, left)?, folded(unit, right)?);
+                let (left, right) = (folded(known, left)?, folded(known, right)?);
                 let (left, right) = (f64::from_bits(left), f64::from_bits(right));
                 match operator {
                     Operator::Add => float(left + right),

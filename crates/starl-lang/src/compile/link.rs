@@ -5,14 +5,14 @@ use alloc::vec::Vec;
 
 use super::call::shared_kind;
 use super::computed::computed;
+use super::join::join;
 use super::problem::{Compiled, Problem};
 use super::unit::{Finished, Routine, Unit};
 use crate::check::CheckedFile;
-use crate::diagnostic::{self, Span};
-use crate::ir::{self, FunctionId, Program, SharedId, Type};
+use crate::diagnostic;
+use crate::ir::{self, FunctionId, Program, SharedId};
 use crate::machine::{
-    self, Action, Binding, Bytecode, Function, Handler, Parameter, Range, SourceFile, Value,
-    Variable,
+    self, Action, Binding, Bytecode, Handler, Parameter, Range, SourceFile, Value, Variable,
 };
 use starl_core::Duration;
 
@@ -233,41 +233,4 @@ fn source_file((number, file): (usize, &CheckedFile)) -> SourceFile {
         name: format!("{name}.starl"),
         lines: lines.collect(),
     }
-}
-
-/// Puts the functions one after the other.
-pub(super) fn join(mut unit: Unit<'_>, mut bytecode: Bytecode) -> Result<Bytecode, Vec<Problem>> {
-    // The machine asks for the type of texts by itself.
-    if !unit.texts.is_empty()
-        && let Err(why) = unit.types.object(&Type::String)
-    {
-        let problem = unit.unsuitable(&Type::String, why, 0, Span::empty(0));
-        unit.problems.push(*problem);
-    }
-    if !unit.problems.is_empty() {
-        return Err(unit.problems);
-    }
-    for finished in unit.functions.into_iter().flatten() {
-        let entry = bytecode.code.len() as u32;
-        let objects = finished.used.objects as u8;
-        finished
-            .code
-            .append_to(objects, &mut bytecode.code, &mut bytecode.spans);
-        bytecode.functions.push(Function {
-            name: finished.name,
-            kind: finished.kind,
-            entry,
-            end: bytecode.code.len() as u32,
-            registers: finished.used.scalars as u16,
-            object_registers: objects,
-            arguments: finished.arguments,
-            results: finished.results,
-        });
-    }
-    bytecode.constants = unit.constants;
-    bytecode.texts = unit.texts;
-    bytecode.enums = unit.types.enums;
-    bytecode.types = unit.types.objects;
-    bytecode.imports = unit.imports;
-    Ok(bytecode)
 }

@@ -16,6 +16,7 @@ mod condition;
 mod constant;
 mod declaration;
 mod expression;
+mod join;
 mod link;
 mod problem;
 mod size;

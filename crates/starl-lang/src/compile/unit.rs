@@ -48,7 +48,7 @@ pub(super) struct Unit<'p> {
     pub program: &'p Program,
     pub types: Types<'p>,
     /// The values of constants that are known scalars.
-    known: Vec<Option<u64>>,
+    pub known: Vec<Option<u64>>,
     /// Where variables lie in the state.
     variables: Vec<Size>,
     /// Where parameters lie in the state.
@@ -93,14 +93,9 @@ impl<'p> Unit<'p> {
             problems: Vec::new(),
         };
         for id in &program.constant_order {
-            unit.known[id.index()] = folded(&unit, &program[*id].value);
+            unit.known[id.index()] = folded(&unit.known, &program[*id].value);
         }
         unit
-    }
-
-    /// The value of a constant, if that is a scalar which is known.
-    pub fn known_constant(&self, id: ConstantId) -> Option<u64> {
-        self.known[id.index()]
     }
 
     /// Where a variable begins in the state.

@@ -3,7 +3,8 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::describe::{Description, describe};
+use super::describe::describe;
+use super::description::Description;
 use super::index::{Index, Occurrence, headers};
 use crate::check::{Checked, Libraries, Symbol, check};
 use crate::compile::problems;
@@ -91,7 +92,9 @@ impl Analysis {
             Symbol::Enum(id) => program[id].site,
             Symbol::Variant(id, number) => program[id].variants.get(number as usize)?.site,
             Symbol::Record(id) => program[id].site,
-            Symbol::Field(id, number) => program[id].fields.get(number as usize)?.site,
+            Symbol::Field(id, number) if !program[id].is_tuple() => {
+                program[id].fields.get(number as usize)?.site
+            }
             Symbol::Parameter(id) => program[id].site,
             Symbol::Constant(id) => program[id].site,
             Symbol::Variable(id) => program[id].site,
@@ -103,7 +106,8 @@ impl Analysis {
             Symbol::Input(number) => program.handlers.get(number as usize)?.site,
             Symbol::Property(number) => program.properties.get(number as usize)?.site,
             Symbol::File(file) => return Some(self.header(file)),
-            Symbol::Builtin(_)
+            Symbol::Field(..)
+            | Symbol::Builtin(_)
             | Symbol::Type(_)
             | Symbol::Method(_)
             | Symbol::Primitive(_)

@@ -2,7 +2,7 @@
 
 use alloc::format;
 
-use super::Description;
+use super::description::Description;
 use crate::check::{PRIMITIVES, Symbol};
 
 /// Built-in types with their documentation.

@@ -5,6 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::built_in::built_in;
+use super::description::Description;
 use super::index::headers;
 use crate::check::{Checked, Symbol};
 use crate::ir::{EnumId, Event, RecordId, Site, Type};
@@ -13,39 +14,6 @@ use crate::syntax::{SyntaxKind, SyntaxNode};
 
 /// Up to which length a value is part of what is shown of a declaration.
 const LONGEST_VALUE: usize = 60;
-
-/// The description of a name.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Description {
-    /// How it is declared, in the language: `function f(a: Int) -> Int`.
-    pub signature: String,
-    /// Its documentation, in Markdown; may be empty.
-    pub documentation: String,
-    /// Of a local what kind it is.
-    pub of_locals: Option<&'static str>,
-}
-
-impl Description {
-    pub(super) fn new(signature: impl Into<String>, documentation: impl Into<String>) -> Self {
-        Self {
-            signature: signature.into(),
-            documentation: documentation.into(),
-            of_locals: None,
-        }
-    }
-
-    /// All of it in Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        let mut parts = Vec::from([format!("```starl\n{}\n```", self.signature)]);
-        let kind = self.of_locals.filter(|kind| *kind != "a local variable");
-        parts.extend(kind.map(|kind| format!("_{kind}_")));
-        if !self.documentation.is_empty() {
-            parts.push(self.documentation.clone());
-        }
-        parts.join("\n\n")
-    }
-}
 
 pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {
     let program = &checked.program;
@@ -168,8 +136,9 @@ fn field(checked: &Checked, id: RecordId, number: u32) -> Description {
     let Some(field) = record.fields.get(number as usize) else {
         return Description::default();
     };
+    let of = checked.program.type_name(&Type::Record(id));
     let ty = checked.program.type_name(&field.ty);
-    let text = format!("{}.{}: {ty}", record.name, field.name);
+    let text = format!("{of}.{}: {ty}", field.name);
     let node = node_at(checked, field.site).filter(|_| !record.is_tuple());
     let node = node.and_then(|node| node.ancestors().find_map(ast::Field::cast));
     Description::new(

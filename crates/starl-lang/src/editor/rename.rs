@@ -7,7 +7,6 @@
 
 mod changes;
 
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -20,6 +19,7 @@ use crate::ir::{Site, Type};
 use crate::syntax::SyntaxKind;
 use changes::{Changes, line};
 use starl_core::Order;
+use thiserror::Error;
 
 /// The changes of one file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,6 +28,55 @@ pub struct FileEdits {
     pub file: u32,
     /// Sorted by position.
     pub edits: Vec<Edit>,
+}
+
+/// Why something keeps its name.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum RenameError {
+    /// There is no name, or one without a meaning.
+    #[error("there is no known name here")]
+    NoName,
+    /// A library is called like its file.
+    #[error("the library `{0}` has the name of its file")]
+    Library(String),
+    /// The language gives the name.
+    #[error("`{0}` is a name that every program has")]
+    Given(String),
+    /// The language gives the name, which no text declares.
+    #[error("this is a name that every program has")]
+    Undeclared,
+    /// The input of changed waypoints.
+    #[error("`{name}` is an input that every program may hear", name = Order::WAY_POINTS)]
+    WayPoints,
+    /// The new name is not one.
+    #[error(
+        "`{0}` is not a name: a name consists of letters, digits and `_`, and does not begin with a digit"
+    )]
+    NotAName(String),
+    /// The new name is `_`.
+    #[error("`_` stands for an unused value")]
+    Unused,
+    /// The new name is a keyword.
+    #[error("`{0}` is a keyword")]
+    Keyword(String),
+    /// The old name occurs in a part with errors.
+    #[error("the meaning of `{old}` in {place} is unknown; fix the errors first")]
+    Unclear {
+        /// The old name.
+        old: String,
+        /// Where it occurs, e.g. `line 12`.
+        place: String,
+    },
+    /// The program would mean something else.
+    #[error("`{old}` cannot become `{name}`: {reason}")]
+    Conflict {
+        /// The old name.
+        old: String,
+        /// The new name.
+        name: String,
+        /// The name that would mean something else, or the new error.
+        reason: String,
+    },
 }
 
 /// The changes of a renaming.
@@ -41,10 +90,10 @@ impl Analysis {
     /// The name at a place of the text, if it can be renamed; else why not.
     ///
     /// # Errors
-    /// A sentence for the person who wants to rename it.
-    pub fn renameable(&self, offset: u32) -> Result<Occurrence, String> {
+    /// Why it cannot.
+    pub fn renameable(&self, offset: u32) -> Result<Occurrence, RenameError> {
         let Some(found) = self.occurrence(offset) else {
-            return Err("there is no known name here".into());
+            return Err(RenameError::NoName);
         };
         self.may_rename(found.symbol)?;
         Ok(found)
@@ -53,30 +102,24 @@ impl Analysis {
     /// Whether something can be renamed.
     ///
     /// # Errors
-    /// A sentence that says why not.
-    pub fn may_rename(&self, symbol: Symbol) -> Result<(), String> {
+    /// Why it cannot.
+    pub fn may_rename(&self, symbol: Symbol) -> Result<(), RenameError> {
         let roles = self.checked.program.roles.as_ref();
         let roles = roles.map(|roles| roles.variable);
         let name = |site| self.name_at(site);
         match (symbol, self.definition(symbol)) {
             (Symbol::File(file), Some(site)) if file > 0 || self.checked.program.is_library => {
-                let name = name(site);
-                Err(format!("the library `{name}` has the name of its file"))
+                Err(RenameError::Library(name(site)))
             }
             (Symbol::Variable(id), _) if Some(id) == roles => {
-                Err("`role` is a name that every program has".into())
+                Err(RenameError::Given("role".into()))
             }
-            (Symbol::Enum(id), _) if self.is_of_roles(id) => {
-                Err("`role` is a name that every program has".into())
-            }
+            (Symbol::Enum(id), _) if self.is_of_roles(id) => Err(RenameError::Given("role".into())),
             (Symbol::Input(_), Some(site)) if self.name_at(site) == Order::WAY_POINTS => {
-                Err("`way_points` is an input that every program may hear".into())
+                Err(RenameError::WayPoints)
             }
-            (_, Some(site)) if site.file == PRELUDE_FILE => {
-                let name = name(site);
-                Err(format!("`{name}` is a name that every program has"))
-            }
-            (_, None) => Err("this is a name that every program has".into()),
+            (_, Some(site)) if site.file == PRELUDE_FILE => Err(RenameError::Given(name(site))),
+            (_, None) => Err(RenameError::Undeclared),
             _ => Ok(()),
         }
     }
@@ -90,18 +133,18 @@ impl Analysis {
     /// Gives something another name, in all files. `libraries` are those that the text was checked with.
     ///
     /// # Errors
-    /// A sentence that says why it keeps its name.
+    /// Why it keeps its name.
     pub fn rename(
         &self,
         symbol: Symbol,
         name: &str,
         libraries: &dyn Libraries,
-    ) -> Result<Renamed, String> {
+    ) -> Result<Renamed, RenameError> {
         self.may_rename(symbol)?;
         valid(name)?;
         let names = self.references(symbol);
         let Some(first) = names.first() else {
-            return Err("there is no known name here".into());
+            return Err(RenameError::NoName);
         };
         let old = self.name_at(first.site);
         if old == name {
@@ -117,7 +160,7 @@ impl Analysis {
     }
 
     /// Refuses if the name stands where it is not known what it stands for.
-    fn refuse_unclear(&self, old: &str) -> Result<(), String> {
+    fn refuse_unclear(&self, old: &str) -> Result<(), RenameError> {
         if !self.checked.has_errors() {
             return Ok(());
         }
@@ -132,9 +175,8 @@ impl Analysis {
                 let file = number as u32;
                 if self.index.exactly(Site { file, span }).is_none() {
                     let place = line(&self.checked, Site { file, span });
-                    return Err(format!(
-                        "the meaning of `{old}` in {place} is unknown; fix the errors first"
-                    ));
+                    let old = old.into();
+                    return Err(RenameError::Unclear { old, place });
                 }
             }
         }
@@ -143,22 +185,20 @@ impl Analysis {
 }
 
 /// Whether it can be a name.
-fn valid(name: &str) -> Result<(), String> {
+fn valid(name: &str) -> Result<(), RenameError> {
     let mut letters = name.chars();
     let is_word = letters
         .next()
         .is_some_and(|first| first == '_' || first.is_ascii_alphabetic())
         && letters.all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
     if !is_word {
-        return Err(format!(
-            "`{name}` is not a name: a name consists of letters, digits and `_`, and does not begin with a digit"
-        ));
+        return Err(RenameError::NotAName(name.into()));
     }
     if name == "_" {
-        return Err("`_` stands for an unused value".into());
+        return Err(RenameError::Unused);
     }
     if SyntaxKind::keyword(name).is_some() {
-        return Err(format!("`{name}` is a keyword"));
+        return Err(RenameError::Keyword(name.into()));
     }
     Ok(())
 }

@@ -3,18 +3,9 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{Expression, LocalId, RecordId, SharedId, Statement, Type, VariableId};
+use super::{Expression, LocalId, RecordId, SharedId, Site, Statement, Type, VariableId};
 use crate::check::{Event as EventSignature, Primitive};
 use crate::diagnostic::Span;
-
-/// Where something is declared: the file, and the name in it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Site {
-    /// The number of the file.
-    pub file: u32,
-    /// The name, or the word that begins the declaration if it has none.
-    pub span: Span,
-}
 
 /// `param name: Type in from..before = default`
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,7 @@
 //! The numbers by which parts of a program refer to declarations.
 
-use core::ops::{Index, IndexMut};
-
-use super::{Binding, Constant, Enum, Function, Parameter, Program, Record, Shared, Variable};
-
 macro_rules! ids {
-    ($($(#[$doc:meta])+ $name:ident: $table:ident[$entry:ident],)+) => {$(
+    ($($(#[$doc:meta])+ $name:ident,)+) => {$(
         $(#[$doc])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub struct $name(pub u32);
@@ -17,40 +13,26 @@ macro_rules! ids {
                 self.0 as usize
             }
         }
-
-        impl Index<$name> for Program {
-            type Output = $entry;
-
-            fn index(&self, id: $name) -> &$entry {
-                &self.$table[id.index()]
-            }
-        }
-
-        impl IndexMut<$name> for Program {
-            fn index_mut(&mut self, id: $name) -> &mut $entry {
-                &mut self.$table[id.index()]
-            }
-        }
     )+};
 }
 
 ids! {
     /// An enum.
-    EnumId: enums[Enum],
+    EnumId,
     /// A record or a message.
-    RecordId: records[Record],
+    RecordId,
     /// A parameter.
-    ParameterId: parameters[Parameter],
+    ParameterId,
     /// A constant.
-    ConstantId: constants[Constant],
+    ConstantId,
     /// A state variable.
-    VariableId: variables[Variable],
+    VariableId,
     /// A shared variable.
-    SharedId: shared[Shared],
+    SharedId,
     /// A bound primitive.
-    BindingId: bindings[Binding],
+    BindingId,
     /// A function.
-    FunctionId: functions[Function],
+    FunctionId,
 }
 
 /// A local variable, by its place among those of the body.

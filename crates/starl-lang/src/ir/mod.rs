@@ -23,12 +23,15 @@ mod declaration;
 mod display;
 mod expression;
 mod id;
+mod site;
 mod statement;
+mod tables;
 mod types;
 
 pub use declaration::*;
 pub use expression::*;
 pub use id::*;
+pub use site::*;
 pub use statement::*;
 pub use types::*;
 

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Expression, LocalId, Operator, SharedId, VariableId};
+use super::{Expression, LocalId, LoopVariables, Operator, Place, SharedId};
 use crate::diagnostic::Span;
 
 /// A statement.
@@ -77,57 +77,4 @@ pub enum StatementKind {
         /// The statements.
         body: Vec<Statement>,
     },
-}
-
-/// The variables that a loop or a comprehension binds for each element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LoopVariables {
-    /// An element of a list, set or range, or a key of a map; none for `_`.
-    One(Option<LocalId>),
-    /// Key and value of a map; none for `_`.
-    Two(Option<LocalId>, Option<LocalId>),
-}
-
-/// Something that can be written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Place {
-    /// The variable.
-    pub root: Root,
-    /// The way from the variable to its part.
-    pub path: Vec<Step>,
-    /// The type of the written value.
-    pub ty: super::Type,
-    /// Where it is.
-    pub span: Span,
-}
-
-/// The variable that is written, or a part of it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Root {
-    /// An error: the target is not a variable.
-    Error,
-    /// A local variable.
-    Local(LocalId),
-    /// A state variable.
-    Variable(VariableId),
-    /// This robot's element of a single-writer variable; always written whole.
-    OwnElement(SharedId),
-    /// A multi-writer variable. It is read, changed and written whole if there is a path, which there
-    /// is only if it has an initial value.
-    Shared(SharedId),
-}
-
-/// A step from a value to a part of it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Step {
-    /// The field of a record with this number.
-    Field(u32),
-    /// A coordinate of a point: 0 for x, 1 for y, 2 for z.
-    Coordinate(u8),
-    /// An element of a list; outside of the list it is a run-time error.
-    Index(Expression),
-    /// The value of a key of a map. As the last step it may be new: an update by `+` or `-` and a method that adds
-    /// ([`Method::adds`](crate::check::Method::adds)) then start from the default value of the type. Otherwise, and
-    /// before the last step, a missing key is a run-time error.
-    Key(Expression),
 }

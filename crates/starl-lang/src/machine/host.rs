@@ -5,8 +5,7 @@
 //! number. A primitive is bound to a number by the program (its instance, counted from zero), and its methods and flags
 //! are imports like any other, `Mutex.acquire` or `Mutex.held`, with the instance as their first argument, an Int.
 
-use crate::machine::interpreter::scalar::bits;
-use crate::machine::types::{Layout, Type};
+use crate::machine::types::{Layout, Type, bits};
 use crate::machine::value::object::Object;
 use crate::machine::value::state::State;
 use alloc::borrow::Cow;

@@ -3,23 +3,15 @@
 //!
 //! Invariant: calling such a function and using its known result differ only in fuel.
 
+use crate::machine::bytecode::FunctionKind;
 use crate::machine::host::{Host, HostCall};
 use crate::machine::interpreter::workspace::Workspace;
 use crate::machine::interpreter::{Limits, Machine};
-use crate::machine::program::{FunctionKind, Program};
+use crate::machine::program::{Known, Program};
 use crate::machine::value::object::Object;
 use crate::machine::value::state::State;
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
-
-/// The results of a function.
-#[derive(Clone, Debug)]
-pub(in crate::machine) struct Known {
-    pub scalars: Vec<u64>,
-    pub objects: Vec<Object>,
-    /// The size of the objects as if nothing were shared, bytes.
-    pub bytes: usize,
-}
 
 /// The results of a program's functions, by number; none of those that have arguments, see something, or end in an
 /// error. All together use at most the fuel of one activation; otherwise they are computed in the activations.

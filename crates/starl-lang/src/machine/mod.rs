@@ -31,11 +31,13 @@
 //! - A property's function takes robots and reads their variables by `load_other`; without
 //!   quantifiers it takes one, the robot itself. Inner quantifiers are loops over a query's result.
 
+mod bytecode;
 mod error;
 mod host;
 mod instruction;
 mod interpreter;
 mod known;
+mod load;
 pub mod operand;
 mod program;
 mod range;
@@ -44,15 +46,16 @@ mod types;
 mod value;
 mod verify;
 
+pub use bytecode::{
+    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Model, Origin,
+    Parameter, Property, Range, SourceFile, Span, Variable,
+};
 pub use error::{Fault, LoadError, RuntimeError};
 pub use host::{Host, HostCall, Import, Resolve};
 pub use instruction::Instruction;
 pub use interpreter::workspace::Workspace;
 pub use interpreter::{Limits, Machine};
-pub use program::{
-    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Model, Origin,
-    Parameter, Program, Property, Range, SourceFile, Span, Variable,
-};
+pub use program::Program;
 pub use text::{AssemblyError, assemble, disassemble};
 pub use types::{Layout, ObjectType, Order, Parts, Type, is_tuple};
 pub use value::list::{Block, List};

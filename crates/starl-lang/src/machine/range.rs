@@ -1,6 +1,6 @@
 //! The values that a parameter may have.
 
-use super::program::{Range, Variable};
+use super::bytecode::{Range, Variable};
 use super::types::Type;
 use super::value::tree::Value;
 use alloc::format;

@@ -146,3 +146,13 @@ impl Parts {
         }
     }
 }
+
+/// The bits of a Float; all NaN become one, because processors differ in the NaN they produce.
+#[inline(always)]
+pub(in crate::machine) fn bits(number: f64) -> u64 {
+    if number.is_nan() {
+        f64::NAN.to_bits()
+    } else {
+        number.to_bits()
+    }
+}

@@ -5,13 +5,12 @@
 
 use super::atomic::{Conflicts, Script, Step, Values};
 use super::code::Instance;
+use super::failure::Failure;
 use super::host::{Context, RobotHost};
 use super::primitives::Report;
 use super::program::{Part, Phase, RobotProgram, Waiting};
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine};
-use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::{Message, Robot};
 
@@ -59,7 +58,7 @@ impl RobotProgram {
         robot: &mut Robot<'_>,
         action: u32,
         values: Values,
-    ) -> Result<Option<(Values, Script)>, String> {
+    ) -> Result<Option<(Values, Script)>, Failure> {
         let code = &self.code;
         let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
         let mut services = self.services.clone();
@@ -93,13 +92,13 @@ impl RobotProgram {
     fn store(
         &mut self,
         robot: &mut Robot<'_>,
-        tried: Result<Option<(Values, Script)>, String>,
-    ) -> Result<(), String> {
+        tried: Result<Option<(Values, Script)>, Failure>,
+    ) -> Result<(), Failure> {
         let tried = tried?;
         match &mut self.services.atomic {
             Some(atomic) if self.phase == Phase::Running => atomic
                 .store(robot, &self.code, tried)
-                .map_err(|error| format!("what an atomic action wrote is not stored: {error}")),
+                .map_err(Failure::NotStored),
             _ => Ok(()),
         }
     }

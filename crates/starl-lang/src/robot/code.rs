@@ -1,6 +1,7 @@
 //! A program that robots can run: bytecode that was verified and joined to what robots offer.
 
 use super::atomic::{self, Conflicts, join_groups};
+use super::failure::Failure;
 use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::orders::Orders;
@@ -44,7 +45,7 @@ struct Inner {
     /// Where the program says how far it is.
     stage: Option<Stage>,
     /// The parameters' defaults; or what went wrong when they were worked out.
-    initial: Result<State, String>,
+    initial: Result<State, Failure>,
 }
 
 /// A primitive that the program binds.
@@ -83,7 +84,7 @@ impl Code {
         let initial = parameter::defaults(&program);
         let joints = joiner.finish();
         Ok(Code(Arc::new(Inner {
-            initial: initial.map_err(|error| place(&program, &error)),
+            initial: initial.map_err(|error| failure(&program, &error)),
             is_steady: rest::is_steady(program.bytecode(), &joints),
             joints,
             services: Services::of(&program.bytecode().name, needs(&instances)),
@@ -105,8 +106,8 @@ impl Code {
     }
 
     /// A state with the parameters' defaults.
-    pub(super) fn initial(&self) -> Result<&State, &str> {
-        self.0.initial.as_ref().map_err(|text| &text[..])
+    pub(super) fn initial(&self) -> Result<&State, &Failure> {
+        self.0.initial.as_ref()
     }
 
     /// The joint of an import.
@@ -222,19 +223,17 @@ impl Code {
         self.0.stage.as_ref()
     }
 
-    /// An error in words, with its place: `race.starl:12:5: index 5 is out of range 0..3`.
-    pub fn describe(&self, error: &RuntimeError) -> String {
-        place(self.program(), error)
+    /// An error with its place: `race.starl:12:5: index 5 is out of range 0..3`.
+    pub fn describe(&self, error: &RuntimeError) -> Failure {
+        failure(self.program(), error)
     }
 }
 
-fn place(program: &Program, error: &RuntimeError) -> String {
-    match program.source(error.position) {
-        Some(place) => format!("{place}: {}", error.fault),
-        None => match program.function_at(error.position) {
-            Some(function) => format!("{}: {}", function.name, error.fault),
-            None => error.fault.to_string(),
-        },
+fn failure(program: &Program, error: &RuntimeError) -> Failure {
+    let function = || Some(program.function_at(error.position)?.name.clone());
+    Failure::Fault {
+        place: program.source(error.position).or_else(function),
+        fault: error.fault.clone(),
     }
 }
 

@@ -101,8 +101,7 @@ fn object(program: &Program, kind: &ObjectType, random: &mut Random, depth: u32)
 
 /// 64 random bits, small numbers as likely as great ones; the highest bit is 0.
 fn whole(random: &mut Random) -> u64 {
-    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
-    bits >> (1 + random.below(63))
+    random.word() >> (1 + random.below(63))
 }
 
 /// A number of any magnitude that occurs in programs, from a millionth to a million.

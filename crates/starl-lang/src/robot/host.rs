@@ -3,6 +3,7 @@
 use super::arguments::{Arguments, Called};
 use super::atomic::{self, Script};
 use super::code::{Code, Instance};
+use super::failure::Failure;
 use super::joint::OnRobot;
 use super::messages::Outgoing;
 use super::primitives::{BoundPrimitive, KINDS, Slot};
@@ -10,7 +11,6 @@ use super::services::Services;
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
 use alloc::borrow::Cow;
-use alloc::string::String;
 use starl_core::{Input, Payload, Port, Robot};
 
 /// The context of host functions.
@@ -36,7 +36,7 @@ pub struct RobotHost<'a, 'r> {
     /// The bound primitives.
     pub bound: &'a mut [Slot],
     /// Why the program cannot continue, once it has said so.
-    pub failure: Option<String>,
+    pub failure: Option<Failure>,
     /// Whether an action has fired.
     pub has_fired: bool,
     /// The treatment of calls.

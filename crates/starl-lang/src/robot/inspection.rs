@@ -1,6 +1,7 @@
 //! Inspects a program that runs on a robot, without changing it: for observers and debuggers.
 
 use super::atomic::Script;
+use super::failure::Failure;
 use super::host::{Context, RobotHost};
 use super::primitives::KINDS;
 use super::program::{Phase, RobotProgram};
@@ -31,8 +32,8 @@ pub struct VariableState {
 pub struct ActionState {
     /// Its name.
     pub name: String,
-    /// Whether its guard holds, or the error that evaluating it ends with.
-    pub enabled: Result<bool, String>,
+    /// Whether its guard holds, or why evaluating it fails.
+    pub enabled: Result<bool, Failure>,
 }
 
 /// A primitive and its state.

@@ -15,6 +15,7 @@ mod atomic;
 mod builtins;
 mod code;
 mod corruption;
+mod failure;
 mod host;
 mod inspection;
 mod joint;
@@ -34,6 +35,7 @@ mod words;
 mod workbench;
 
 pub use code::Code;
+pub use failure::Failure;
 pub use inspection::{ActionState, PrimitiveState, VariableState};
 pub use parameter::ParameterError;
 pub use program::RobotProgram;

@@ -8,10 +8,11 @@ use super::program::{Part, Phase, RobotProgram, Waiting};
 use super::words::type_name;
 use crate::machine::{Bytecode, ObjectType, Origin, Program, Type, Value};
 use alloc::format;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use starl_core::event::Level;
 use starl_core::{self as core, Order, Robot};
+use thiserror::Error;
 
 /// An input that the program handles.
 #[derive(Clone, Debug)]
@@ -25,6 +26,23 @@ struct Incoming {
 /// The inputs that a program handles.
 #[derive(Clone, Debug, Default)]
 pub struct Orders(Vec<Incoming>);
+
+/// A field of an order that does not fit the input that handles it.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error(
+    "order `{order}` ignored: its field `{field}` must be {expected}, but it is {}",
+    found.unwrap_or("missing")
+)]
+pub struct WrongField {
+    /// The name of the order.
+    pub order: String,
+    /// The name of the field.
+    pub field: String,
+    /// Its type, as the language writes it.
+    pub expected: String,
+    /// The type that it has; none if it is missing.
+    pub found: Option<&'static str>,
+}
 
 impl Orders {
     /// Those of a program; none if handlers of one input have different fields.
@@ -54,29 +72,32 @@ impl Orders {
     /// The arguments of the order's handlers; `None` if it has no handler.
     ///
     /// # Errors
-    /// A sentence that names the order, the first field that does not fit, and its type.
-    pub fn decode(&self, program: &Program, order: &Order) -> Result<Option<Arrival<'_>>, String> {
+    /// The first field that does not fit.
+    pub fn decode(
+        &self,
+        program: &Program,
+        order: &Order,
+    ) -> Result<Option<Arrival<'_>>, WrongField> {
         let Some(incoming) = self.0.iter().find(|known| known.name == order.name) else {
             return Ok(None);
         };
         let (mut scalars, mut objects) = (Vec::new(), Vec::new());
         for (name, kind) in &incoming.fields {
-            let problem = |found: &str| {
-                let expected = type_name(program.bytecode(), kind);
-                let order = &order.name;
-                Err(format!(
-                    "order `{order}` ignored: its field `{name}` must be {expected}, but {found}"
-                ))
+            let wrong = |found| WrongField {
+                order: order.name.clone().into(),
+                field: name.clone(),
+                expected: type_name(program.bytecode(), kind),
+                found,
             };
             let mut given = order.fields.iter();
             let Some((_, given)) = given.find(|(field, _)| field == name) else {
-                return problem("it is missing");
+                return Err(wrong(None));
             };
             let value = value(given, program.bytecode(), kind);
             let fits =
                 value.is_some_and(|value| value.write(program, kind, &mut scalars, &mut objects));
             if !fits {
-                return problem(&format!("it is {}", type_of(given)));
+                return Err(wrong(Some(type_of(given))));
             }
         }
         Ok(Some(Arrival {
@@ -104,7 +125,7 @@ impl RobotProgram {
                 let text = format!("order `{}` ignored: it has no handler", order.name);
                 robot.log(Level::Debug, text);
             }
-            Err(problem) => robot.log(Level::Warning, problem),
+            Err(wrong) => robot.log(Level::Warning, wrong.to_string()),
         }
     }
 }

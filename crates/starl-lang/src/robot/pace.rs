@@ -65,7 +65,7 @@ impl Pace {
     /// Random moments, as a transient fault leaves them.
     pub fn corrupt(&mut self, random: &mut Random) {
         for moment in [&mut self.held_since, &mut self.fired] {
-            let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
+            let bits = random.word();
             *moment = random
                 .chance(0.5)
                 .then(|| Time(bits >> (1 + random.below(63))));

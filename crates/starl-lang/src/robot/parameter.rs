@@ -1,6 +1,7 @@
 //! Values of a program's parameters, set by the scenario.
 
 use super::code::Code;
+use super::failure::Failure;
 use super::words::type_name;
 use crate::machine::{
     Host, HostCall, Limits, Machine, Parameter, Program, RuntimeError, State, Value, Variable,
@@ -8,12 +9,13 @@ use crate::machine::{
 };
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::fmt;
+use thiserror::Error;
 
 /// Why a program cannot run with the parameters that it was given.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ParameterError {
     /// The program has no such parameter.
+    #[error("the program has no parameter `{name}`; it has {}", if known.is_empty() { "none".into() } else { known.join(", ") })]
     Unknown {
         /// The given name.
         name: String,
@@ -21,6 +23,7 @@ pub enum ParameterError {
         known: Vec<String>,
     },
     /// The value is not of the parameter's type.
+    #[error("the parameter `{name}` is {expected}, not {found}")]
     WrongType {
         /// The parameter.
         name: String,
@@ -30,6 +33,7 @@ pub enum ParameterError {
         found: String,
     },
     /// The value is outside the parameter's range.
+    #[error("the parameter `{name}` goes {range}, and {found} is not in that")]
     OutOfRange {
         /// The parameter.
         name: String,
@@ -39,46 +43,17 @@ pub enum ParameterError {
         found: String,
     },
     /// The parameter has no default and was not given.
+    #[error("the parameter `{name}`, {expected}, is not given")]
     Missing {
         /// The parameter.
         name: String,
         /// Its type as the language writes it.
         expected: String,
     },
-    /// A default could not be worked out; the text says where and why.
-    Default(String),
+    /// A default could not be worked out.
+    #[error(transparent)]
+    Default(Failure),
 }
-
-impl fmt::Display for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ParameterError::Unknown { name, known } => {
-                write!(f, "the program has no parameter `{name}`")?;
-                match known.is_empty() {
-                    true => f.write_str("; it has none"),
-                    false => write!(f, "; it has {}", known.join(", ")),
-                }
-            }
-            ParameterError::WrongType {
-                name,
-                expected,
-                found,
-            } => write!(f, "the parameter `{name}` is {expected}, not {found}"),
-            ParameterError::OutOfRange { name, range, found } => {
-                write!(
-                    f,
-                    "the parameter `{name}` goes {range}, and {found} is not in that"
-                )
-            }
-            ParameterError::Missing { name, expected } => {
-                write!(f, "the parameter `{name}`, {expected}, is not given")
-            }
-            ParameterError::Default(text) => f.write_str(text),
-        }
-    }
-}
-
-impl core::error::Error for ParameterError {}
 
 /// A state with the defaults of the parameters.
 pub(super) fn defaults(program: &Program) -> Result<State, RuntimeError> {
@@ -107,7 +82,7 @@ pub(super) fn state(code: &Code, given: &[(&str, Value)]) -> Result<State, Param
     }
     let initial = code.initial();
     let mut state = initial
-        .map_err(|text| ParameterError::Default(text.into()))?
+        .map_err(|failure| ParameterError::Default(failure.clone()))?
         .clone();
     for (name, value) in given {
         let Some(variable) = parameters().find(|variable| variable.name == *name) else {

@@ -4,6 +4,7 @@ use super::acting::hold_back;
 use super::atomic::{Conflicts, Script, Turn};
 use super::code::{Code, Instance};
 use super::corruption;
+use super::failure::Failure;
 use super::host::{Context, RobotHost};
 use super::messages::Arrival;
 use super::pace::Pace;
@@ -16,7 +17,7 @@ use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
-use alloc::string::String;
+use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
@@ -189,9 +190,9 @@ impl RobotProgram {
     }
 
     /// Ends the program.
-    pub(super) fn fail(&mut self, robot: &mut Robot<'_>, reason: String) {
+    pub(super) fn fail(&mut self, robot: &mut Robot<'_>, reason: Failure) {
         robot.halt();
-        robot.fail(reason);
+        robot.fail(reason.to_string());
         self.phase = Phase::Failed;
         // Others need not wait for it.
         if let Some(atomic) = &mut self.services.atomic {

@@ -218,6 +218,12 @@ fn of_a_library_beside_the_program() {
 }
 
 #[test]
+fn of_a_part_of_a_tuple() {
+    let text = "program P\nbid: (Float, RobotId)? = none\ngo()\n    pre some (a, b) = bid\n    eff let pair = (a, b); log(\"{}\", pair.1$0)\n";
+    assert_eq!(hover(text).signature, "(Float, RobotId).1: RobotId");
+}
+
+#[test]
 fn nothing_without_a_meaning() {
     let analysis = Analysis::new("program P\nx: Int = unknown\n", &Beside(&[]));
     assert!(analysis.hover(21).is_none());

@@ -2,10 +2,10 @@
 
 use crate::editor_support::{Beside, at_cursor, cursor, edited};
 use starl_lang::check::{Libraries, StandardLibraries};
-use starl_lang::editor::Analysis;
+use starl_lang::editor::{Analysis, RenameError};
 
 /// The text after renaming what is at the cursor, or why it keeps its name.
-fn renamed_with(text: &str, name: &str, libraries: &dyn Libraries) -> Result<String, String> {
+fn renamed_with(text: &str, name: &str, libraries: &dyn Libraries) -> Result<String, RenameError> {
     let (text, at) = cursor(text);
     let analysis = Analysis::new(&text, libraries);
     let found = analysis.renameable(at)?;
@@ -14,12 +14,14 @@ fn renamed_with(text: &str, name: &str, libraries: &dyn Libraries) -> Result<Str
     Ok(own.map_or(text.clone(), |file| edited(&text, &file.edits)))
 }
 
-fn renamed(text: &str, name: &str) -> Result<String, String> {
+fn renamed(text: &str, name: &str) -> Result<String, RenameError> {
     renamed_with(text, name, &StandardLibraries)
 }
 
 fn refused(text: &str, name: &str) -> String {
-    renamed(text, name).expect_err("it keeps its name")
+    renamed(text, name)
+        .expect_err("it keeps its name")
+        .to_string()
 }
 
 const COUNTER: &str = "program P
@@ -201,7 +203,9 @@ fn in_libraries_too() {
         .rename(found.symbol, "two", &libraries)
         .expect_err("it is taken");
     assert!(
-        reason.contains("the name `two` is taken (line 3 of `tools`)"),
+        reason
+            .to_string()
+            .contains("the name `two` is taken (line 3 of `tools`)"),
         "{reason}"
     );
 }

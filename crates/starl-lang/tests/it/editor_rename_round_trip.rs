@@ -4,7 +4,7 @@ use crate::common::{EVERY_FORM, LISTINGS};
 use crate::editor_support::edited;
 use starl_lang::check::StandardLibraries;
 use starl_lang::diagnostic::{Code, Severity};
-use starl_lang::editor::{Analysis, Occurrence};
+use starl_lang::editor::{Analysis, Occurrence, RenameError};
 
 /// A name that none of the texts has.
 const NEW: &str = "entirely_new";
@@ -22,7 +22,7 @@ fn meaning(analysis: &Analysis) -> (Vec<(Code, Severity)>, Vec<String>) {
     (told.collect(), names.collect())
 }
 
-fn rename(analysis: &Analysis, name: &Occurrence, to: &str) -> Result<String, String> {
+fn rename(analysis: &Analysis, name: &Occurrence, to: &str) -> Result<String, RenameError> {
     let renamed = analysis.rename(name.symbol, to, &StandardLibraries)?;
     assert!(
         renamed.files.iter().all(|file| file.file == 0),

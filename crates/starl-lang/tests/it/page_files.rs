@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use starl_core::FileError;
 use starl_lang::check::Libraries;
 
 /// The libraries of a page by name. Each page has the model `navigation.onnx`, which takes four numbers and gives two.
@@ -13,11 +14,11 @@ impl Libraries for PageFiles {
         self.0.get(name).cloned()
     }
 
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn model(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let model = include_bytes!("../../../starl-policy/tests/models/dense.onnx");
         match path {
             "navigation.onnx" => Ok(model.to_vec()),
-            _ => Err("there is no such file".into()),
+            _ => Err(FileError::Missing),
         }
     }
 }

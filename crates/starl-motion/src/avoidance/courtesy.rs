@@ -7,7 +7,7 @@
 //! time before it drives on for another.
 
 use super::plane::larger;
-use crate::pilot::Neighbour;
+use crate::Neighbour;
 use starl_core::motion::Body;
 use starl_core::{Duration, Point, Random, Time};
 

@@ -8,7 +8,7 @@
 use super::Avoidance;
 use super::pace::Pace;
 use super::plane::{larger, smaller};
-use crate::pilot::Neighbour;
+use crate::Neighbour;
 use starl_core::motion::{Body, Estimate};
 
 impl Avoidance {

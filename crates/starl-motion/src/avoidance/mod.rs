@@ -31,7 +31,7 @@ mod yielding;
 pub use options::Options;
 pub(crate) use surroundings::OBSTACLE_MARGIN;
 
-use crate::pilot::Neighbour;
+use crate::Neighbour;
 use crate::tracking::Goal;
 use crate::{Limits, Model};
 use courtesy::{Courtesy, Queue};

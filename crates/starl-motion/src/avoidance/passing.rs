@@ -8,7 +8,7 @@
 
 use super::cell::Cell;
 use super::plane::{smaller, turned};
-use crate::pilot::Neighbour;
+use crate::Neighbour;
 use starl_core::motion::Body;
 use starl_core::{Point, math};
 

@@ -10,7 +10,7 @@ use super::cell::{Border, Cell};
 use super::drive::Drive;
 use super::pace::Pace;
 use super::plane::{between_segments, least_on_segment};
-use crate::pilot::Neighbour;
+use crate::Neighbour;
 use starl_core::motion::{Body, Estimate};
 use starl_core::{Obstacle, Point};
 

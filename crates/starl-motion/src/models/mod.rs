@@ -100,6 +100,7 @@ pub fn with_parameters(
     let kind = KINDS.iter().find(|kind| kind.name == name).ok_or_else(|| {
         ParameterError::UnknownModel {
             name: name.to_string(),
+            known: NAMES.iter().map(|(name, _)| *name).collect(),
         }
     })?;
     (kind.make)(kind.name, parameters)

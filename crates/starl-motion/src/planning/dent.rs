@@ -5,23 +5,22 @@
 //! is at the end. So paths keep all of the margin except near an end that has less, never touch, and
 //! what is free still follows exactly from where a segment enters and leaves convex things.
 
-use super::grown::Grown;
 use super::ray::Ray;
 use super::vector::{Vector, difference, dot};
 use starl_core::math;
 
 /// A ball in which a lesser growth of an obstacle counts.
 #[derive(Clone, Copy, Debug)]
-pub struct Dent<const D: usize> {
+pub struct Dent<const D: usize, T> {
     /// The end of a path, metres.
     pub center: Vector<D>,
     /// Metres.
     pub radius: f64,
     /// The obstacle as it counts in the ball.
-    pub inner: Grown<D>,
+    pub inner: T,
 }
 
-impl<const D: usize> Dent<D> {
+impl<const D: usize, T> Dent<D, T> {
     /// The part of the line through the segment that is in the ball, as fractions of the segment's
     /// length; the first is greater if there is none.
     fn ball(&self, ray: &Ray<D>) -> (f64, f64) {
@@ -47,16 +46,16 @@ impl<const D: usize> Dent<D> {
 
 /// Where the segment is first in the dented obstacle, if it is in the undented one from `enter` to
 /// `leave`. `meets` says where it is in a lesser growth. All are fractions of the segment's length.
-pub fn first_met<const D: usize>(
-    dents: &[Dent<D>],
+pub fn first_met<const D: usize, T>(
+    dents: &[Dent<D, T>],
     ray: &Ray<D>,
     (enter, leave): (f64, f64),
-    meets: impl Fn(&Grown<D>) -> Option<(f64, f64)>,
+    meets: impl Fn(&T) -> Option<(f64, f64)>,
 ) -> Option<f64> {
     let mut at = enter;
     // From ball to ball: it never returns to a ball that it has left.
     loop {
-        let inside = |dent: &&Dent<D>| {
+        let inside = |dent: &&Dent<D, T>| {
             let (from, to) = dent.ball(ray);
             from <= at && at < to
         };

@@ -35,7 +35,7 @@ pub struct Grown<const D: usize> {
 pub struct GrownList<const D: usize> {
     list: Vec<Grown<D>>,
     corners: Vec<Corner>,
-    dents: Vec<Dent<D>>,
+    dents: Vec<Dent<D, Grown<D>>>,
 }
 
 impl<const D: usize> GrownList<D> {

@@ -8,7 +8,7 @@ impl Barrier {
     /// Overwrites the state at random, within its types: for a program's
     /// [`starl_core::Program::corrupt`].
     pub fn corrupt(&mut self, random: &mut Random) {
-        self.generation = word(random);
+        self.generation = random.magnitude();
         self.knows = random.chance(0.5);
         if self.has_come {
             self.waits = random.chance(0.5);
@@ -20,7 +20,7 @@ impl Barrier {
             peer.lives = Handshake::asking(random.bits());
             if random.chance(0.7) {
                 let words = Words {
-                    generation: word(random),
+                    generation: random.magnitude(),
                     waits: random.chance(0.5),
                     knows: random.chance(0.5),
                 };
@@ -32,12 +32,6 @@ impl Barrier {
         self.suspects
             .extend(self.peers.keys().filter(|_| random.chance(0.5)));
         self.repetitions = random.bits();
-        self.due = random.chance(0.5).then(|| Time(word(random)));
+        self.due = random.chance(0.5).then(|| Time(random.magnitude()));
     }
-}
-
-/// A number of any order of magnitude.
-fn word(random: &mut Random) -> u64 {
-    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
-    bits >> random.below(64)
 }

@@ -8,7 +8,7 @@
 //! questions are repeated; a leader announces itself repeatedly, and a greater robot that hears a smaller leader
 //! contradicts it. So robots with different leaders agree when they hear each other.
 
-use super::options::{no_later, random_bits};
+use super::options::no_later;
 use super::packet::Packet;
 use super::rules::{Leadership, Rules, Scene};
 use alloc::vec::Vec;
@@ -212,11 +212,11 @@ impl Rules for Bully {
 
     fn corrupt(&mut self, random: &mut Random) {
         self.leader = random.chance(0.5).then(|| RobotId(random.below(8)));
-        self.due = Time(random_bits(random));
+        self.due = Time(random.magnitude());
         self.question = random.chance(0.5).then(|| Question {
             is_answered: random.chance(0.5),
-            until: Time(random_bits(random)),
-            repeat_at: Time(random_bits(random)),
+            until: Time(random.magnitude()),
+            repeat_at: Time(random.magnitude()),
             repetitions: random.bits(),
         });
     }

@@ -9,7 +9,6 @@
 //! Epochs are ahead of clocks by at most a cycle for each leader, so they continue to grow with the clocks after all
 //! state is lost.
 
-use super::options::random_bits;
 use serde::{Deserialize, Serialize};
 use starl_core::{Random, RobotId, Time};
 
@@ -51,7 +50,7 @@ impl Epoch {
 
     /// Any number at all.
     pub fn random(random: &mut Random) -> Epoch {
-        Epoch(random_bits(random))
+        Epoch(random.magnitude())
     }
 
     fn moment(self) -> u64 {

@@ -1,6 +1,6 @@
 //! Which algorithm elects, and how patiently.
 
-use starl_core::{Duration, Random, Time};
+use starl_core::{Duration, Time};
 
 pub use starl_core::event::agreement::Algorithm;
 
@@ -71,10 +71,4 @@ impl Options {
 /// The earlier of a moment and the latest that makes sense. A corruption may have left any.
 pub(super) fn no_later(moment: &mut Time, latest: Time) {
     *moment = (*moment).min(latest);
-}
-
-/// A number of any size.
-pub(super) fn random_bits(random: &mut Random) -> u64 {
-    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
-    bits >> random.below(64)
 }

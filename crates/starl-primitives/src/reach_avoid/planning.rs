@@ -40,7 +40,7 @@ impl ReachAvoid {
         command.known = robot.obstacles();
         self.ticket = self.ticket.wrapping_add(1);
         let random = robot.random();
-        let seed = u64::from(random.bits()) << 32 | u64::from(random.bits());
+        let seed = random.word();
         robot.plan(PlanRequest {
             ticket: self.ticket,
             target: robot.body().reachable(command.target),

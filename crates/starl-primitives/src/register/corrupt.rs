@@ -23,10 +23,10 @@ impl Register {
             }
         }
         for life in self.lives.all_mut() {
-            *life = word(random);
+            *life = random.magnitude();
         }
         if random.chance(0.5) {
-            self.standing = Standing::Up(word(random));
+            self.standing = Standing::Up(random.magnitude());
         }
         for operation in self.operations.values_mut() {
             operation.answers.retain(|_, _| random.chance(0.5));
@@ -34,12 +34,12 @@ impl Register {
                 operation.latest = Some(version(random));
                 operation.phase = Phase::Store;
             }
-            operation.begun = Time(word(random));
+            operation.begun = Time(random.magnitude());
             operation.repetitions = random.bits();
         }
         self.last_number = random.bits();
         self.claimed.retain(|_, _| random.chance(0.5));
-        self.gossip.interval = Duration(word(random));
+        self.gossip.interval = Duration(random.magnitude());
         self.gossip.equal = random.bits();
         self.gossip.compared = random.chance(0.5);
         self.suspects.retain(|_| random.chance(0.5));
@@ -57,7 +57,7 @@ impl Register {
 
 fn tag(random: &mut Random) -> Tag {
     Tag {
-        count: word(random),
+        count: random.magnitude(),
         writer: RobotId(random.bits()),
         incarnation: random.bits(),
     }
@@ -70,10 +70,4 @@ fn version(random: &mut Random) -> Version {
 fn value(random: &mut Random) -> Payload {
     let length = random.below(LONGEST_VALUE);
     (0..length).map(|_| random.bits() as u8).collect()
-}
-
-/// A number of any order of magnitude.
-fn word(random: &mut Random) -> u64 {
-    let word = u64::from(random.bits()) << 32 | u64::from(random.bits());
-    word >> random.below(64)
 }

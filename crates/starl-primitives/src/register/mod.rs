@@ -64,7 +64,6 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use answering::Said;
 use claiming::Claimed;
-use core::fmt;
 use entering::Standing;
 use gossip::Gossip;
 use lives::Lives;
@@ -74,6 +73,7 @@ use replica::Replica;
 use starl_core::{
     Destination, Input, Message, Payload, Port, Primitive, Robot, RobotId, TimerKey, timers,
 };
+use thiserror::Error;
 
 timers! {
     enum Alarm {
@@ -144,33 +144,24 @@ pub enum Status {
 }
 
 /// Why an operation was not begun.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum OperationError {
     /// The register's name is longer than 255 bytes.
+    #[error("the register's name is too long")]
     NameTooLong,
     /// The value is longer than [`Options::longest_value`].
+    #[error("the value is too long for a datagram")]
     ValueTooLong,
     /// [`Options::most_operations`] are under way already.
+    #[error("as many operations as there may be are under way")]
     TooMany,
     /// This robot already claims the register, or writes it after a claim.
+    #[error("the register is being claimed or written already")]
     UnderWay,
     /// The register was not claimed, or has been written since.
+    #[error("the register was not claimed before")]
     NotClaimed,
 }
-
-impl fmt::Display for OperationError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            OperationError::NameTooLong => "the register's name is too long",
-            OperationError::ValueTooLong => "the value is too long for a datagram",
-            OperationError::TooMany => "as many operations as there may be are under way",
-            OperationError::UnderWay => "the register is being claimed or written already",
-            OperationError::NotClaimed => "the register was not claimed before",
-        })
-    }
-}
-
-impl core::error::Error for OperationError {}
 
 impl Register {
     /// An instance; those of the same name on all robots are one set of registers. `participants` keep the copies: all

@@ -13,7 +13,7 @@ impl Registration {
         if let Some(own) = &mut self.own {
             own.ticket = ticket(random);
             own.announcements = random.bits() >> random.below(32);
-            own.gathers_until = time(random);
+            own.gathers_until = Time(random.magnitude());
         }
         let known: BTreeSet<RobotId> = self.peers.keys().copied().collect();
         let mut some = || -> BTreeSet<RobotId> {
@@ -45,7 +45,7 @@ impl Registration {
         self.shunned.retain(|_, _| random.chance(0.5));
         for shunned in self.shunned.values_mut() {
             *shunned = Shunned {
-                until: time(random),
+                until: Time(random.magnitude()),
                 times: random.bits(),
             };
         }
@@ -60,15 +60,15 @@ impl Registration {
             } => {
                 view.roll.retain(|_, _| random.chance(0.5));
                 if random.chance(0.5) {
-                    view.id.time = time(random);
+                    view.id.time = Time(random.magnitude());
                 }
                 *shown = members;
             }
         }
-        self.promised.time = time(random);
-        self.latest = time(random);
-        self.due = random.chance(0.5).then(|| time(random));
-        self.announces_at = time(random);
+        self.promised.time = Time(random.magnitude());
+        self.latest = Time(random.magnitude());
+        self.due = random.chance(0.5).then(|| Time(random.magnitude()));
+        self.announces_at = Time(random.magnitude());
         self.failed = random.chance(0.5);
     }
 }
@@ -78,10 +78,4 @@ fn ticket(random: &mut Random) -> Ticket {
         life: random.bits(),
         number: random.bits(),
     }
-}
-
-/// A moment of any order of magnitude.
-fn time(random: &mut Random) -> Time {
-    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
-    Time(bits >> random.below(64))
 }

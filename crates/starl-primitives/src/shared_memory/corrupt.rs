@@ -27,22 +27,22 @@ impl SharedMemory {
                 .map(|_| random.bits() as u8)
                 .collect::<Payload>();
             for dependency in element.depends.iter_mut().flatten() {
-                dependency.stamp.time = time(random);
+                dependency.stamp.time = Time(random.magnitude());
                 dependency.stamp.count = random.bits();
                 if random.chance(0.5) {
-                    dependency.key = word(random);
+                    dependency.key = random.word();
                 }
             }
             element.mine = random.chance(0.5);
-            element.touched = time(random);
+            element.touched = Time(random.magnitude());
         }
         self.clock = clock(random);
-        *self.store.fingerprint_mut() = word(random);
-        self.changed = time(random);
-        self.unsent = (0..random.below(4)).map(|_| word(random)).collect();
-        self.repairs = (0..random.below(4)).map(|_| word(random)).collect();
-        self.repair_due = random.chance(0.5).then(|| time(random));
-        self.gossip.interval = Duration(word(random));
+        *self.store.fingerprint_mut() = random.word();
+        self.changed = Time(random.magnitude());
+        self.unsent = (0..random.below(4)).map(|_| random.word()).collect();
+        self.repairs = (0..random.below(4)).map(|_| random.word()).collect();
+        self.repair_due = random.chance(0.5).then(|| Time(random.magnitude()));
+        self.gossip.interval = Duration(random.word());
         self.gossip.begun = random.chance(0.5);
         self.gossip.vain = random.bits();
         self.gossip.equal = random.bits();
@@ -52,16 +52,7 @@ impl SharedMemory {
 
 fn clock(random: &mut Random) -> HybridClock {
     HybridClock {
-        time: time(random),
+        time: Time(random.magnitude()),
         count: random.bits(),
     }
-}
-
-/// A moment of any order of magnitude.
-fn time(random: &mut Random) -> Time {
-    Time(word(random) >> random.below(64))
-}
-
-fn word(random: &mut Random) -> u64 {
-    u64::from(random.bits()) << 32 | u64::from(random.bits())
 }

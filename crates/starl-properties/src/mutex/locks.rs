@@ -1,11 +1,10 @@
 //! The records of one mutex: holders and waiting robots of each resource.
 
 use super::arbiters::{Arbiters, Fleet};
-use super::waiting::Waiting;
 use super::{FENCING, SAFETY};
 use crate::{Excuse, Excused, Violation};
 use starl_core::{Duration, RobotId, Time};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A mutex.
@@ -224,6 +223,36 @@ impl Locks {
         match self.holders.get_key_value(resource) {
             Some((known, _)) => known.clone(),
             None => resource.into(),
+        }
+    }
+}
+
+/// A request.
+#[derive(Clone, Debug)]
+pub(super) struct Waiting {
+    pub resources: BTreeSet<Arc<str>>,
+    pub(super) since: Time,
+    /// When something last happened that it may have waited for.
+    pub(super) changed: Time,
+    /// How often each robot has acquired the set that this one waits for.
+    pub(super) overtaken: BTreeMap<RobotId, u32>,
+    /// The time, and the robot that overtook it once too often.
+    pub(super) starved: Option<(Time, RobotId)>,
+    pub(super) is_reported: bool,
+    /// Since when it waited for what it was excused for last.
+    pub(super) excused: Option<Time>,
+}
+
+impl Waiting {
+    pub fn new(since: Time) -> Waiting {
+        Waiting {
+            resources: BTreeSet::new(),
+            since,
+            changed: since,
+            overtaken: BTreeMap::new(),
+            starved: None,
+            is_reported: false,
+            excused: None,
         }
     }
 }

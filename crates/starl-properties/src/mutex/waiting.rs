@@ -14,40 +14,9 @@ use super::{NON_INTERFERENCE, PROGRESS};
 use crate::{Excuse, Excused, Violation, robot_list};
 use starl_core::{Duration, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 /// So often another may be granted what one waits for, as messages that cross can be ordered either way.
 const MOST_OVERTAKEN: u32 = 100;
-
-/// A request.
-#[derive(Clone, Debug)]
-pub(super) struct Waiting {
-    pub resources: BTreeSet<Arc<str>>,
-    since: Time,
-    /// When something last happened that it may have waited for.
-    changed: Time,
-    /// How often each robot has acquired the set that this one waits for.
-    overtaken: BTreeMap<RobotId, u32>,
-    /// The time, and the robot that overtook it once too often.
-    starved: Option<(Time, RobotId)>,
-    is_reported: bool,
-    /// Since when it waited for what it was excused for last.
-    excused: Option<Time>,
-}
-
-impl Waiting {
-    pub fn new(since: Time) -> Waiting {
-        Waiting {
-            resources: BTreeSet::new(),
-            since,
-            changed: since,
-            overtaken: BTreeMap::new(),
-            starved: None,
-            is_reported: false,
-            excused: None,
-        }
-    }
-}
 
 impl Locks {
     /// The state of these resources has changed: all requests that wait for them, directly or through others,

@@ -11,10 +11,45 @@ use starl_core::{
     Agent, Event, FaultKind, Intervention, Order, Point, Pose, Record, RobotId, Time, WayPoint,
 };
 use std::sync::Arc;
+use thiserror::Error;
 
-/// Why an intervention is refused that no scenario file could hold.
-const INVALID: &str = "a number in it is not finite or out of its range, a name is blank, or it names no robot, or \
-                       one twice";
+/// Why an intervention is refused.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum InterventionError {
+    /// No scenario file could hold it.
+    #[error(
+        "a number in it is not finite or out of its range, a name is blank, or it names no robot, or one twice"
+    )]
+    Invalid,
+    /// It names a robot that the fleet does not have.
+    #[error("there is no robot {robot}; the fleet has {count}")]
+    NoRobot {
+        /// The robot.
+        robot: RobotId,
+        /// The number of robots.
+        count: usize,
+    },
+    /// It changes an obstacle that is not there any more, or never was.
+    #[error("no obstacle {0} stands")]
+    NoObstacle(u32),
+    /// It removes something that is not there.
+    #[error("there is no {kind} {name}")]
+    Nothing {
+        /// `waypoint` or `thing`.
+        kind: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// The network would contradict itself; the message says how.
+    #[error("{0}")]
+    Network(String),
+    /// Another robot has the name of the one that joins.
+    #[error("there is already a robot called {0}")]
+    NameTaken(String),
+    /// Something stands where a robot joins.
+    #[error("the place where the robot joins is occupied")]
+    Occupied,
+}
 
 /// A push is tried in so many parts until nothing is in the way.
 const PARTS: u32 = 16;
@@ -27,10 +62,10 @@ impl Simulation {
     /// # Errors
     /// The error of the intervention: invalid numbers, unknown robots, and, if it is to happen now, unknown
     /// names and indices.
-    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), InterventionError> {
         let what = what.tidy();
         if !what.is_valid() {
-            return Err(INVALID.into());
+            return Err(InterventionError::Invalid);
         }
         self.find_robots(&what)?;
         let at = at.max(self.now);
@@ -79,8 +114,8 @@ impl Simulation {
                 self.note(at, Event::Intervention(Box::new(what.clone())));
             }
             let found = self.find_robots(&what);
-            if let Err(text) = found.and_then(|()| self.find_object(&what)) {
-                let (level, text) = (Level::Warning, text.into());
+            if let Err(error) = found.and_then(|()| self.find_object(&what)) {
+                let (level, text) = (Level::Warning, error.to_string().into());
                 self.note(at, Event::Log { level, text });
                 continue;
             }
@@ -89,28 +124,30 @@ impl Simulation {
     }
 
     /// Whether the robots that an intervention names are there.
-    fn find_robots(&self, what: &Intervention) -> Result<(), String> {
+    fn find_robots(&self, what: &Intervention) -> Result<(), InterventionError> {
         let count = self.shared.bodies.len();
         let mut robots = what.robots().into_iter();
         match robots.find(|robot| robot.index() >= count) {
-            Some(robot) => Err(format!("there is no robot {robot}; the fleet has {count}")),
+            Some(robot) => Err(InterventionError::NoRobot { robot, count }),
             None => Ok(()),
         }
     }
 
     /// Whether the object that an intervention changes is there.
-    fn find_object(&mut self, what: &Intervention) -> Result<(), String> {
+    fn find_object(&mut self, what: &Intervention) -> Result<(), InterventionError> {
         let name = match what {
             Intervention::MoveObstacle { index, .. } | Intervention::RemoveObstacle { index } => {
                 let found = self.obstacle(*index).map(|_| ());
-                return found.ok_or(format!("no obstacle {index} stands"));
+                return found.ok_or(InterventionError::NoObstacle(*index));
             }
             Intervention::Network(knobs) => {
                 let mut network = Network::clone(&self.shared.network);
                 knobs.iter().for_each(|&knob| network.turn(knob));
                 let sets_jitter = |knob: &NetworkKnob| matches!(knob, NetworkKnob::Jitter(_));
                 let contradiction = network.link.contradiction(knobs.iter().any(sets_jitter));
-                return contradiction.map_or(Ok(()), |found| Err(found.message));
+                return contradiction.map_or(Ok(()), |found| {
+                    Err(InterventionError::Network(found.message))
+                });
             }
             Intervention::RemoveWayPoint { name } => {
                 let mut known = self.shared.way_points.iter();
@@ -126,18 +163,21 @@ impl Simulation {
                 let fleet = &self.shared.scenario.fleet;
                 let mut robots = (0..self.shared.bodies.len() as u32).map(RobotId);
                 if robots.any(|robot| !self.has_left(robot) && fleet.name(robot) == *name) {
-                    return Err(format!("there is already a robot called {name}"));
+                    return Err(InterventionError::NameTaken(name.clone()));
                 }
                 let body = self.shared.bodies[like.index()];
                 return match self.is_free(None, pose.position, body.radius, body.height) {
                     true => Ok(()),
-                    false => Err("the place where the robot joins is occupied".into()),
+                    false => Err(InterventionError::Occupied),
                 };
             }
             _ => None,
         };
         match name {
-            Some((kind, name)) => Err(format!("there is no {kind} {name}")),
+            Some((kind, name)) => {
+                let name = name.clone();
+                Err(InterventionError::Nothing { kind, name })
+            }
             None => Ok(()),
         }
     }

@@ -23,8 +23,10 @@ mod witness;
 
 pub use fault::timeline;
 pub use inspect::{Mail, Standing};
+pub use intervene::InterventionError;
+pub use populate::{Complaint, Programs, StartError};
 pub use record::Tally;
-pub use simulation::{Programs, Progress, Simulation, StartError};
+pub use simulation::{Progress, Simulation};
 
 use starl_core::Random;
 

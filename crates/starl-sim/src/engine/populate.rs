@@ -3,20 +3,42 @@
 use super::shard::{SIZE, Shard};
 use super::shared::{Kind, Shared};
 use super::simulated_robot::{Account, Senses, SimulatedRobot};
-use super::simulation::{Programs, StartError};
 use super::{Stream, stream};
 use crate::scenario::{Group, Scenario};
-use starl_core::{Agent, Command, Duration, Point, Pose, RobotId, Time, random};
+use starl_core::{Agent, Command, Duration, Point, Pose, Program, RobotId, Time, random};
 use starl_host::hardware::Drive;
 use starl_host::{Clock, Hardware, Node, Store};
 use starl_motion::Neighbour;
 
+/// Makes the program of a group's robots, or says why it cannot.
+pub type Programs<'a> = dyn Fn(&Group) -> Result<Box<dyn Program>, Complaint> + 'a;
+
+/// An error in a program's name or parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Complaint {
+    /// The field below the group or the scenario: `program` or `parameters.vicinity`.
+    pub field: String,
+    /// The error.
+    pub message: String,
+    /// The suggested fix.
+    pub help: String,
+}
+
+/// Why a run cannot start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StartError {
+    /// The group of robots concerned, by its place in the fleet.
+    pub group: usize,
+    /// The error of its program.
+    pub complaint: Complaint,
+}
+
 /// The common properties of the robots of each group.
 pub fn kinds(scenario: &Scenario, programs: &Programs<'_>) -> Result<Vec<Kind>, StartError> {
     let kind = |(index, group): (usize, &Group)| {
-        let program = programs(group).map_err(|message| StartError {
+        let program = programs(group).map_err(|complaint| StartError {
             group: index,
-            message,
+            complaint,
         })?;
         let model = group.model.clone();
         let lands = model.accepts(&Command::Land);

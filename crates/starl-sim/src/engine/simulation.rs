@@ -2,6 +2,7 @@
 
 use super::agenda::Agenda;
 use super::inbox::Calendar;
+use super::populate::{Programs, StartError};
 use super::record::Tally;
 use super::shard::{SIZE, Shard};
 use super::shared::{Shared, Window};
@@ -9,7 +10,7 @@ use super::simulated_robot::SimulatedRobot;
 use super::slots::Slots;
 use super::things::Things;
 use super::{populate, radio};
-use crate::scenario::{Group, Scenario};
+use crate::scenario::Scenario;
 use starl_core::event::Name;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
@@ -54,18 +55,6 @@ pub struct Simulation {
     records: Vec<Record>,
     journal: Batch,
     parallel: bool,
-}
-
-/// Makes the program of a group's robots, or says why it cannot.
-pub type Programs<'a> = dyn Fn(&Group) -> Result<Box<dyn Program>, String> + 'a;
-
-/// Why a run cannot start.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StartError {
-    /// The group of robots concerned, by its place in the fleet.
-    pub group: usize,
-    /// The error of its program.
-    pub message: String,
 }
 
 /// How far the robots are.

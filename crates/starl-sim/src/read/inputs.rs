@@ -2,6 +2,7 @@
 
 use crate::fields::{Place, Problem};
 use serde::{Deserialize, Serialize};
+use starl_core::FileError;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -62,8 +63,8 @@ pub trait Loader {
     /// The content of the file at this path, relative to the scenario's own.
     ///
     /// # Errors
-    /// Why it cannot be read, in words.
-    fn load(&self, path: &str) -> Result<Vec<u8>, String>;
+    /// Why it cannot be read.
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError>;
 }
 
 impl Source {
@@ -126,7 +127,7 @@ impl Content {
         }
     }
 
-    fn bytes(&self) -> Result<Vec<u8>, String> {
+    fn bytes(&self) -> Result<Vec<u8>, FileError> {
         match self {
             Content::Text(text) => Ok(text.as_bytes().to_vec()),
             Content::Hex(text) => {
@@ -136,17 +137,17 @@ impl Content {
                     _ => None,
                 };
                 let bytes: Option<Vec<u8>> = text.as_bytes().chunks(2).map(byte).collect();
-                bytes.ok_or_else(|| "its recorded content is damaged".to_string())
+                bytes.ok_or_else(|| FileError::Unreadable("its recorded content is damaged".into()))
             }
         }
     }
 }
 
 impl Loader for Inputs {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         match self.files.get(path) {
             Some(content) => content.bytes(),
-            None => Err("it was not recorded".to_string()),
+            None => Err(FileError::Unreadable("it was not recorded".into())),
         }
     }
 }
@@ -165,7 +166,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    pub fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    pub fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let bytes = self.loader.load(path)?;
         self.files
             .borrow_mut()

@@ -6,6 +6,7 @@
 //! without it.
 
 mod change;
+mod contents;
 mod curve;
 mod event;
 mod fault;

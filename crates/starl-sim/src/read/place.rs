@@ -3,11 +3,11 @@
 //! Given starts are checked, and taken before any is drawn. Drawn ones are dealt out within their group
 //! along a curve through the floor, so that robots with neighbouring numbers stand near each other.
 
+use super::contents::Contents;
 use super::fleet::Draft;
 use super::names::Names;
 use super::placing::Placing;
 use super::report::Report;
-use super::world::Contents;
 use super::{Placed, curve};
 use crate::scenario::Bounds;
 use starl_core::{Point, Pose, RobotId};

@@ -5,11 +5,11 @@
 //! where they stand.
 
 use super::Placed;
+use super::contents::Contents;
 use super::fleet::Draft;
 use super::grid::{Body, Grid};
 use super::names::Names;
 use super::report::{Origin, Report};
-use super::world::Contents;
 use crate::scenario::Bounds;
 use starl_core::geometry::{Bounds as Box, ObstacleIndex};
 use starl_core::{Obstacle, Point, Pose, Random, RobotId, math};

@@ -6,8 +6,8 @@
 //! count, nor, for robots that fly, those that they might fly over.
 
 use super::Placed;
+use super::contents::Contents;
 use super::report::Report;
-use super::world::Contents;
 use crate::scenario::{Bounds, Fleet, Group, Parameter};
 use starl_core::geometry::{Bounds as Box, ObstacleIndex};
 use starl_core::{Obstacle, Point, Time, WayPoint};

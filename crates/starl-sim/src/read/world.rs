@@ -1,25 +1,14 @@
 //! Reads `world`, and merges it with its files.
 
+use super::contents::Contents;
 use super::inputs::Recorder;
 use super::names::Names;
 use super::report::Report;
 use super::section::Section;
 use super::{Placed, obstacle, occupancy, start, world_file};
-use crate::scenario::{Bounds, Thing, World, WorldObstacle};
-use starl_core::{Point, Pose, WayPoint};
+use crate::scenario::{Bounds, Thing, World};
+use starl_core::{Point, WayPoint};
 use std::collections::BTreeMap;
-
-/// The contents of the world, with the place of each for later checks.
-#[derive(Default)]
-pub(super) struct Contents {
-    pub bounds: Option<Placed<Bounds>>,
-    pub start_area: Option<Placed<Bounds>>,
-    pub obstacles: Vec<WorldObstacle>,
-    pub way_points: Vec<Placed<WayPoint>>,
-    pub things: Vec<Placed<Thing>>,
-    /// Starts of robots by name, from world files.
-    pub starts: Vec<Placed<(String, Pose)>>,
-}
 
 /// The contents of the world.
 pub(super) fn read(table: Section<'_>, names: &Names, files: &Recorder<'_>) -> Contents {

@@ -7,10 +7,10 @@
 mod drawing;
 mod word;
 
+use super::contents::Contents;
 use super::names::Names;
 use super::obstacle::explain;
 use super::report::{Origin, Report};
-use super::world::Contents;
 use super::{Placed, suggest};
 use crate::scenario::{Thing, WorldObstacle};
 use starl_core::{ConvexPolygon, Duration, Obstacle, Point, Pose, Time, WayPoint, math};

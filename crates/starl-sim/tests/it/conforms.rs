@@ -4,6 +4,7 @@ use crate::engine_support::{exact_delay, scenario};
 use starl_core::{Duration, FaultKind, Program, Record, RobotId, Time};
 use starl_host::Clock;
 use starl_host::testing::conformance::{DELAY, Fleet, Host, Need, PERIOD, Probe, TICK, WRITE_TIME};
+use starl_sim::engine::Complaint;
 use starl_sim::scenario::{self, Fault, Group, Scenario};
 use starl_sim::{Simulation, scenario::Positioning};
 
@@ -95,7 +96,7 @@ impl Host for Simulator {
     }
 
     fn records(&self) -> Vec<Record> {
-        let program = |group: &Group| -> Result<Box<dyn Program>, String> {
+        let program = |group: &Group| -> Result<Box<dyn Program>, Complaint> {
             let robot: usize = group.program.parse().expect("a number");
             Ok(self.robots[robot].clone().boxed())
         };

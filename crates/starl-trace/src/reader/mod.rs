@@ -3,7 +3,7 @@
 mod opening;
 
 use crate::container::{Container, RawRecord};
-use crate::error::Progress;
+use crate::error::{Malformed, Progress};
 use crate::fields::Fields;
 use crate::summary::Tally;
 use crate::{Header, Summary, Topic, TraceError, decode, summary, topic};
@@ -86,7 +86,7 @@ impl<R: Read> Reader<R> {
             match opcode {
                 op::CHANNEL => {
                     let known = channel(body, &mut self.channels, &mut self.inputs);
-                    known.map_err(|what| self.container.damaged(what))?;
+                    known.map_err(|what| self.container.damaged(what.0))?;
                 }
                 op::MESSAGE => {
                     let Some((id, at, data)) = message(body) else {
@@ -97,7 +97,7 @@ impl<R: Read> Reader<R> {
                     let read = match topic {
                         None if !is_input => continue,
                         _ if self.summary.is_some() => {
-                            Err("there are messages after the end record".to_string())
+                            Err("there are messages after the end record".into())
                         }
                         None => {
                             self.tally.inputs += 1;
@@ -120,7 +120,7 @@ impl<R: Read> Reader<R> {
                             self.container.progress.last = Some(at);
                             return Ok(Some(Item::Record(record)));
                         }
-                        Err(what) => {
+                        Err(Malformed(what)) => {
                             let name = topic.map_or(topic::INPUTS, Topic::name);
                             let (progress, topic) = (self.container.progress, name.into());
                             return Err(TraceError::Message {
@@ -138,17 +138,19 @@ impl<R: Read> Reader<R> {
     }
 
     /// Compares what was read with what the end record says was written.
-    fn check_counts(&self) -> Result<Option<Record>, String> {
+    fn check_counts(&self) -> Result<Option<Record>, Malformed> {
         let read = self.tally.total();
         match &self.summary {
-            Some(end) if end.records != read || end.counts != self.tally.counts() => Err(format!(
-                "the end record counts {} records, but {read} were read",
-                end.records
-            )),
-            Some(end) if end.inputs != self.tally.inputs => Err(format!(
+            Some(end) if end.records != read || end.counts != self.tally.counts() => {
+                Err(Malformed(format!(
+                    "the end record counts {} records, but {read} were read",
+                    end.records
+                )))
+            }
+            Some(end) if end.inputs != self.tally.inputs => Err(Malformed(format!(
                 "the end record counts {} messages of inputs, but {} were read",
                 end.inputs, self.tally.inputs
-            )),
+            ))),
             _ => Ok(None),
         }
     }
@@ -220,7 +222,7 @@ fn channel(
     body: &[u8],
     channels: &mut BTreeMap<u16, Topic>,
     inputs: &mut Option<(u16, u32)>,
-) -> Result<(), String> {
+) -> Result<(), Malformed> {
     let mut fields = Fields(body);
     let parts = (|| {
         let (id, _schema) = (fields.u16()?, fields.u16()?);
@@ -233,10 +235,13 @@ fn channel(
         let pairs = fields.pairs().unwrap_or_default();
         let version = pairs.iter().find(|(key, _)| *key == topic::VERSION);
         let version = version.and_then(|(_, version)| version.parse().ok());
-        let version = version.ok_or_else(|| format!("the topic `{name}` has no version"))?;
+        let version =
+            version.ok_or_else(|| Malformed(format!("the topic `{name}` has no version")))?;
         // Channels are repeated at the end of the file.
         return match inputs.replace((id, version)) {
-            Some(before) if before != (id, version) => Err(format!("`{name}` has two channels")),
+            Some(before) if before != (id, version) => {
+                Err(Malformed(format!("`{name}` has two channels")))
+            }
             _ => Ok(()),
         };
     }
@@ -244,15 +249,15 @@ fn channel(
         return Ok(());
     };
     if encoding != "json" {
-        return Err(format!(
+        return Err(Malformed(format!(
             "the topic `{name}` is not in JSON but `{encoding}`"
-        ));
+        )));
     }
     if channels
         .insert(id, topic)
         .is_some_and(|before| before != topic)
     {
-        return Err(format!("channel {id} has two topics"));
+        return Err(Malformed(format!("channel {id} has two topics")));
     }
     Ok(())
 }

@@ -10,8 +10,8 @@ mod primitive;
 mod scene;
 mod trail;
 
+use crate::output::Output;
 use crate::schema;
-use crate::writer::Output;
 use crate::{Header, RobotEntry, WriteError};
 use starl_core::{Duration, Event, Pose, RobotId, Time};
 use std::collections::BTreeSet;

@@ -13,10 +13,10 @@ use starl_core::{Duration, Obstacle, Pose, Random, RobotId};
 use starl_motion::contact::{Contacts, Grid, Motions};
 use starl_motion::proximity::{Rays, Scene};
 use starl_motion::{Disturbance, Impact, Model, Neighbour, State};
-use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
 use std::time::Instant;
+use thiserror::Error;
 
 /// The time of one step.
 pub const STEP: Duration = Duration::from_millis(10);
@@ -46,29 +46,15 @@ impl Noise {
 }
 
 /// Why a body cannot be added.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AddError {
     /// A body of this name is in the world already.
+    #[error("there is a body `{0}` already; use another name")]
     NameTaken(String),
     /// The body would overlap an obstacle or another body.
+    #[error("`{0}` would overlap an obstacle or another body; start it elsewhere")]
     Blocked(String),
 }
-
-impl fmt::Display for AddError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            AddError::NameTaken(name) => {
-                write!(f, "there is a body `{name}` already; use another name")
-            }
-            AddError::Blocked(name) => write!(
-                f,
-                "`{name}` would overlap an obstacle or another body; start it elsewhere"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for AddError {}
 
 /// A floor with obstacles and the bodies on and above it. Clones share the same floor.
 #[derive(Clone, Debug)]

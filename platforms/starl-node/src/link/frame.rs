@@ -1,9 +1,10 @@
 //! Frames between the members of a fleet, below the messages of programs.
 
 use super::Refusals;
+use super::beacon::Beacon;
 use super::quality::Quality;
 use serde::{Deserialize, Serialize};
-use starl_core::{Event, Payload, Point, Port, Pose, Time};
+use starl_core::{Event, Payload, Port, Pose, Time};
 
 /// The content of a packet, in postcard's encoding.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,22 +34,6 @@ pub enum Frame {
     Watch,
     /// The answer, several times a second.
     Seen(Box<Seen>),
-}
-
-/// The periodic message of a robot to all others.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Beacon {
-    /// Counts beacons, so that lost ones can be counted.
-    pub number: u32,
-    /// When it was sent, by the sender's clock.
-    pub sent: Time,
-    /// Where the robot believes to be; none if it does not know.
-    pub pose: Option<Pose>,
-    /// Its velocity, world frame, metres per second.
-    pub velocity: Point,
-    /// The receiver's latest beacon, when it was sent and when it arrived, by the clocks of either end: both ends
-    /// measure delays and the difference of their clocks by it.
-    pub echo: Option<(Time, Time)>,
 }
 
 /// The events on a robot since the last such frame.

@@ -1,5 +1,6 @@
 //! The link between robots: a transport for packets, their encryption, and the quality of the link.
 
+pub mod beacon;
 pub mod channel;
 pub mod frame;
 pub mod impaired;

@@ -1,6 +1,6 @@
 //! How well a robot hears another: losses, delays, and how far their clocks are apart.
 
-use super::frame::Beacon;
+use super::beacon::Beacon;
 use serde::{Deserialize, Serialize};
 use starl_core::Time;
 

@@ -17,12 +17,12 @@ use crate::localise::Accuracy;
 use crate::motors::{Motors, PositionSource, Report};
 use crate::planner::Planner;
 use crate::safety::Safety;
-use crate::surroundings::Thing;
 use crate::writer::{StorageWriter, Written};
 use crate::{Device, Storage, WallClock};
 use equipment::Attached;
+use starl_core::event::Name;
 use starl_core::motion::{Body, Obstacles, Path};
-use starl_core::{Duration, Event, Pose, Program, Random, RobotId, Time, WayPoint};
+use starl_core::{Duration, Event, Point, Pose, Program, Random, RobotId, Time, WayPoint};
 use starl_host::{Hardware, Observed};
 use starl_motion::sensing::SensorSuite;
 use std::io;
@@ -34,6 +34,15 @@ const LONGEST_WAIT: Duration = Duration::from_millis(20);
 
 /// The loop takes at most so many things at once, so that timers are not kept waiting.
 const MOST_AT_ONCE: usize = 64;
+
+/// A thing that detectors see, where it lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thing {
+    /// Its name.
+    pub name: Name,
+    /// Where it is, metres.
+    pub position: Point,
+}
 
 /// The configuration of a robot.
 pub struct Setup {

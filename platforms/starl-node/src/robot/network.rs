@@ -1,8 +1,9 @@
 //! The robot's end of the link: what it hears from others and tells them.
 
 use super::{Core, Equipment, Recorder};
+use crate::link::beacon::Beacon;
 use crate::link::channel::{self, Opened};
-use crate::link::frame::{Beacon, Frame, Status};
+use crate::link::frame::{Frame, Status};
 use crate::link::{Arrival, Member, OPERATORS};
 use starl_core::event::DropReason;
 use starl_core::{Destination, Duration, Event, Message, RobotId};

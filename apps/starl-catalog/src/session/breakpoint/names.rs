@@ -1,5 +1,6 @@
 //! The names that breakpoints may use, so that one that could never be met is refused.
 
+use super::Refused;
 use crate::Application;
 use starl_lang::machine::Origin;
 use starl_sim::read::suggest;
@@ -33,7 +34,7 @@ impl<'a> Names<'a> {
     }
 
     /// Refuses an action that no program has.
-    pub fn check_action(&self, name: &str) -> Result<(), String> {
+    pub fn check_action(&self, name: &str) -> Result<(), Refused> {
         match !self.are_all_actions || self.actions.contains(name) {
             true => Ok(()),
             false => Err(unknown("action", name, &self.actions)),
@@ -41,7 +42,7 @@ impl<'a> Names<'a> {
     }
 
     /// Refuses a message that no program handles.
-    pub fn check_message(&self, name: &str) -> Result<(), String> {
+    pub fn check_message(&self, name: &str) -> Result<(), Refused> {
         match self.messages.contains(name) {
             true => Ok(()),
             false => Err(unknown("handler of a message", name, &self.messages)),
@@ -49,9 +50,9 @@ impl<'a> Names<'a> {
     }
 }
 
-fn unknown(what: &str, name: &str, known: &BTreeSet<&str>) -> String {
+fn unknown(what: &str, name: &str, known: &BTreeSet<&str>) -> Refused {
     let known: Vec<&str> = known.iter().copied().collect();
     let help = suggest::help(name, &known, "there are").map(|help| format!("; {help}"));
     let help = help.unwrap_or_default();
-    format!("no program of the scenario has the {what} {name:?}{help}")
+    format!("no program of the scenario has the {what} {name:?}{help}").into()
 }

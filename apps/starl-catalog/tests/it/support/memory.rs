@@ -2,6 +2,7 @@
 
 use starl_catalog::programs::Registry;
 use starl_catalog::{Application, Refusal};
+use starl_core::FileError;
 use starl_sim::read::{Loader, Request, Source};
 use std::collections::BTreeMap;
 
@@ -21,9 +22,9 @@ impl Memory {
 }
 
 impl Loader for Memory {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let bytes = self.0.get(path).cloned();
-        bytes.ok_or_else(|| "there is no such file".to_string())
+        bytes.ok_or(FileError::Missing)
     }
 }
 

@@ -54,11 +54,11 @@ impl<'p> Body<'_, 'p> {
     ) -> Compiled {
         let target = label.target();
         // A constant is on the right from here on.
-        let (left, right) = match folded(self.unit, left) {
+        let (left, right) = match folded(&self.unit.known, left) {
             Some(_) => (right, left),
             None => (left, right),
         };
-        let constant = short(folded(self.unit, right)).map(Short);
+        let constant = short(folded(&self.unit.known, right)).map(Short);
         if let Some(right) = constant
             && !when_equal
             && is_located(left)

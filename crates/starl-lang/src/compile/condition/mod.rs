@@ -34,7 +34,7 @@ impl<'p> Body<'_, 'p> {
     }
 
     fn branch_here(&mut self, condition: &'p Expression, when: bool, label: Label) -> Compiled {
-        if let Some(bits) = folded(self.unit, condition) {
+        if let Some(bits) = folded(&self.unit.known, condition) {
             if (bits != 0) == when {
                 self.jump(label);
             }

@@ -128,20 +128,20 @@ impl<'p> Body<'_, 'p> {
         target: Target,
     ) -> Compiled<bool> {
         use Operator::{Greater, GreaterEqual, Less, LessEqual};
-        let (operator, variable, constant) = if let Some(constant) = short(folded(self.unit, right))
-        {
-            (operator, left, constant)
-        } else if let Some(constant) = short(folded(self.unit, left)) {
-            let turned = match operator {
-                Less => Greater,
-                LessEqual => GreaterEqual,
-                Greater => Less,
-                _ => LessEqual,
+        let (operator, variable, constant) =
+            if let Some(constant) = short(folded(&self.unit.known, right)) {
+                (operator, left, constant)
+            } else if let Some(constant) = short(folded(&self.unit.known, left)) {
+                let turned = match operator {
+                    Less => Greater,
+                    LessEqual => GreaterEqual,
+                    Greater => Less,
+                    _ => LessEqual,
+                };
+                (turned, right, constant)
+            } else {
+                return Ok(false);
             };
-            (turned, right, constant)
-        } else {
-            return Ok(false);
-        };
         // All four are whether it is less than some bound, or whether it is not.
         let bound = match operator {
             Less | GreaterEqual => Some(constant),

@@ -26,7 +26,7 @@ impl<'p> Unit<'p> {
             size = size.plus(body.size(ty));
         }
         let no = body.label();
-        let always = crate::compile::constant::folded(body.unit, &action.guard) == Some(1);
+        let always = crate::compile::constant::folded(&body.unit.known, &action.guard) == Some(1);
         body.branch(&action.guard, false, no)?;
         body.scalar(holds, 1);
         body.leave(size);

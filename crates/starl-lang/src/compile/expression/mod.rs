@@ -124,7 +124,7 @@ impl<'p> Body<'_, 'p> {
     }
 
     fn compute_here(&mut self, expression: &'p Expression, to: Slot, is_fresh: bool) -> Compiled {
-        if let Some(bits) = folded(self.unit, expression) {
+        if let Some(bits) = folded(&self.unit.known, expression) {
             self.scalar(to, bits);
             return Ok(());
         }

@@ -21,7 +21,7 @@ impl<'p> Body<'_, 'p> {
         let small = |bits: Option<u64>| bits.and_then(|bits| i32::try_from(bits as i64).ok());
         let are_ints = *left.ty() == Type::Int && right.ty == Type::Int;
         let spare = Some(to).filter(|_| is_fresh);
-        if let Some(constant) = small(folded(self.unit, right)) {
+        if let Some(constant) = small(folded(&self.unit.known, right)) {
             let output = to.output();
             let is_positive_span =
                 *left.ty() == Type::Duration && right.ty == Type::Int && constant > 0;
@@ -40,7 +40,7 @@ impl<'p> Body<'_, 'p> {
         let Left::Expression(expression) = left else {
             return Ok(false);
         };
-        if let Some(constant) = small(folded(self.unit, expression)) {
+        if let Some(constant) = small(folded(&self.unit.known, expression)) {
             let make: fn(Out, In, Immediate) -> Instruction = match operator {
                 Operator::Add => add_constant,
                 Operator::Multiply if are_ints => multiply_constant,

@@ -91,7 +91,10 @@ impl<'p> Body<'_, 'p> {
             self.value(end)?
         };
         let (over, again) = (self.label(), self.label());
-        let known = (folded(self.unit, start), folded(self.unit, end));
+        let known = (
+            folded(&self.unit.known, start),
+            folded(&self.unit.known, end),
+        );
         let is_entered = matches!(known, (Some(start), Some(end)) if (start as i64) < end as i64);
         if !is_entered {
             self.emit(Instruction::JumpIfLessEqual {

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use super::super::index::{Index, Occurrence};
 use super::super::{Analysis, Utf16Lines};
-use super::FileEdits;
+use super::{FileEdits, RenameError};
 use crate::check::{Checked, Libraries, Symbol, check};
 use crate::diagnostic::{Diagnostic, Edit, Fix, Severity, Span};
 use crate::ir::Site;
@@ -89,8 +89,17 @@ impl<'a> Changes<'a> {
     }
 
     /// Refuses if anything means something else after the change.
-    pub fn compare(&self, before: &Analysis, changed: &Checked, old: &str) -> Result<(), String> {
-        let name = self.name;
+    pub fn compare(
+        &self,
+        before: &Analysis,
+        changed: &Checked,
+        old: &str,
+    ) -> Result<(), RenameError> {
+        let conflict = |reason| RenameError::Conflict {
+            old: old.into(),
+            name: self.name.into(),
+            reason,
+        };
         if let Some((file, problem)) = self.new_error(&before.checked, changed) {
             let site = Site {
                 file,
@@ -98,9 +107,7 @@ impl<'a> Changes<'a> {
             };
             let place = line(changed, site);
             let message = &problem.message;
-            return Err(format!(
-                "`{old}` cannot become `{name}`: {message} ({place})"
-            ));
+            return Err(conflict(format!("{message} ({place})")));
         }
         let index = Index::new(changed);
         for own in before.index.all() {
@@ -112,15 +119,13 @@ impl<'a> Changes<'a> {
             if index.exactly(site).map(|now| now.symbol) != Some(symbol) {
                 let place = line(&before.checked, own.site);
                 let word = before.name_at(own.site);
-                return Err(format!(
-                    "`{old}` cannot become `{name}`: `{word}` in {place} would mean something else"
-                ));
+                return Err(conflict(format!(
+                    "`{word}` in {place} would mean something else"
+                )));
             }
         }
         if index.all().len() != before.index.all().len() {
-            return Err(format!(
-                "`{old}` cannot become `{name}`: that would mean something else elsewhere"
-            ));
+            return Err(conflict("that would mean something else elsewhere".into()));
         }
         Ok(())
     }

@@ -9,16 +9,13 @@ use crate::machine::error::{Fault, RuntimeError};
 use crate::machine::host::Host;
 use crate::machine::instruction::Instruction;
 use crate::machine::interpreter::view::{Meter, View, object_at, object_at_mut, shift};
-use crate::machine::interpreter::workspace::{Frame, OBJECT_WINDOW, WINDOW, Workspace};
-use crate::machine::known::Known;
+use crate::machine::interpreter::workspace::{Frame, OBJECT_WINDOW, Registers, WINDOW, Workspace};
 use crate::machine::operand::{PointIn, PointOut};
-use crate::machine::program::Program;
+use crate::machine::program::{Known, Program};
+use crate::machine::types::bits;
 use crate::machine::value::object::{Body, Object};
 use crate::machine::value::state::State;
 use starl_core::{Point, RobotId};
-
-/// The scalar registers of a function.
-pub(in crate::machine) type Registers = [u64; WINDOW];
 
 /// The context of a run of the machine.
 pub(in crate::machine) struct Execution<'a> {
@@ -91,7 +88,7 @@ impl Execution<'_> {
             }
             macro_rules! set_float {
                 ($to:expr, $value:expr) => {
-                    set!($to, scalar::bits($value))
+                    set!($to, bits($value))
                 };
             }
             macro_rules! set_bool {
@@ -661,7 +658,7 @@ fn get_point(r: &Registers, from: PointIn) -> Point {
 }
 
 fn set_point(r: &mut Registers, to: PointOut, point: Point) {
-    set_three(r, to, [point.x, point.y, point.z].map(scalar::bits));
+    set_three(r, to, [point.x, point.y, point.z].map(bits));
 }
 
 /// The registers of a point. The verifier sees that they do not go past the last one; going round

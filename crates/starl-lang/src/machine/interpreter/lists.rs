@@ -306,7 +306,7 @@ impl View<'_> {
             .iter()
             .fold(0.0, |sum, &number| sum + f64::from_bits(number));
         let cost = shift(object.bytes());
-        self.registers[to.place()] = crate::machine::interpreter::scalar::bits(sum);
+        self.registers[to.place()] = crate::machine::types::bits(sum);
         Ok(cost)
     }
 }

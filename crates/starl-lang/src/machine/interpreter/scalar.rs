@@ -6,16 +6,6 @@ use crate::machine::operand::{Binary, Rounding, Unary};
 use alloc::borrow::Cow;
 use starl_core::{RobotId, math};
 
-/// The bits of a Float; all NaN become one, because processors differ in the NaN they produce.
-#[inline(always)]
-pub(in crate::machine) fn bits(number: f64) -> u64 {
-    if number.is_nan() {
-        f64::NAN.to_bits()
-    } else {
-        number.to_bits()
-    }
-}
-
 /// left / right, towards zero.
 #[inline(always)]
 pub(in crate::machine) fn divide(left: i64, right: i64) -> Result<u64, Fault> {

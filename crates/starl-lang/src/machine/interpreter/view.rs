@@ -7,8 +7,7 @@
 
 use crate::machine::error::Fault;
 use crate::machine::host::Host;
-use crate::machine::interpreter::execute::Registers;
-use crate::machine::interpreter::workspace::OBJECT_WINDOW;
+use crate::machine::interpreter::workspace::{OBJECT_WINDOW, Registers};
 use crate::machine::operand::{
     self, FIRST_STATE_OPERAND, In, ObjectIn, ObjectInOut, ObjectOut, Type,
 };

@@ -8,6 +8,9 @@ use alloc::vec::Vec;
 pub(in crate::machine) const WINDOW: usize = 256;
 /// The object registers that a function sees.
 pub(in crate::machine) const OBJECT_WINDOW: usize = 128;
+/// The scalar registers of a function.
+pub(in crate::machine) type Registers = [u64; WINDOW];
+
 /// The deepest that calls may be nested.
 pub(in crate::machine) const DEEPEST_CALL: usize = 1000;
 /// The most scalar registers, those of all calls together.

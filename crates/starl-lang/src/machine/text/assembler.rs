@@ -42,34 +42,27 @@
 //! `required` must be, `in` is followed by the least value and the first beyond the greatest. `span` gives the source of the instructions after it: file, first byte, byte after the last. A
 //! jump names a label of its function with `@` before it.
 
-use crate::machine::host::Import;
-use crate::machine::instruction::Instruction;
-use crate::machine::program::{
+use crate::machine::bytecode::{
     Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Origin, Parameter,
     Property, Range, SourceFile, Span, Variable,
 };
+use crate::machine::host::Import;
+use crate::machine::instruction::Instruction;
 use crate::machine::text::types::Cursor;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::fmt;
+use thiserror::Error;
 
 /// An error in the text form of a program.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("line {line}: {reason}")]
 pub struct AssemblyError {
     /// The line, counted from one.
     pub line: u32,
     /// The reason.
     pub reason: &'static str,
 }
-
-impl fmt::Display for AssemblyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.reason)
-    }
-}
-
-impl core::error::Error for AssemblyError {}
 
 /// Reads a program's text form. The bytecode is not verified.
 pub fn assemble(text: &str) -> Result<Bytecode, AssemblyError> {

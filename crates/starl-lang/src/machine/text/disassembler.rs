@@ -1,9 +1,9 @@
 //! Writes a program in the machine's text form, which a person can read and
 //! [`assemble`](crate::machine::assemble) reads back.
 
+use crate::machine::bytecode::{Bytecode, Claim, Function, FunctionKind, Origin, Parameter};
 use crate::machine::instruction::Instruction;
 use crate::machine::operand::Use;
-use crate::machine::program::{Bytecode, Claim, Function, FunctionKind, Origin, Parameter};
 use crate::machine::types::Type;
 use alloc::collections::BTreeSet;
 use alloc::string::String;

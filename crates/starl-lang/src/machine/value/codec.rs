@@ -158,7 +158,7 @@ impl<'a> Reader<'a> {
             }
             Type::Float => {
                 let number = f64::from_le_bytes(*self.take(8)?.first_chunk()?);
-                crate::machine::interpreter::scalar::bits(number)
+                crate::machine::types::bits(number)
             }
             Type::Time | Type::Duration => self.number().filter(|&n| n <= i64::MAX as u64)?,
             Type::Robot => self.number().filter(|&n| n <= u64::from(u32::MAX))?,

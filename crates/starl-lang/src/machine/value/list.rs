@@ -3,8 +3,7 @@
 //! Invariant: `scalars` holds `length * width` words and `objects` `length * object_width` objects;
 //! `held` is the sum of the sizes of `objects`.
 
-use crate::machine::interpreter::scalar::bits;
-use crate::machine::types::{Layout, Order, Parts};
+use crate::machine::types::{Layout, Order, Parts, bits};
 use crate::machine::value::object::{Object, WORD};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -363,12 +362,11 @@ impl Block<'_> {
     fn compare_scalars(self, other: Block<'_>, layout: &Layout, range: Range<usize>) -> Ordering {
         let scalars = self.scalars.iter().zip(other.scalars).zip(&layout.scalars);
         let scalars = scalars.take(range.end).skip(range.start);
-        let orders = scalars.map(|((&left, &right), order)| match order {
+        let mut orders = scalars.map(|((&left, &right), order)| match order {
             Order::Integer => (left as i64).cmp(&(right as i64)),
             Order::Float => compare_floats(left, right),
         });
         orders
-            .into_iter()
             .find(|order| order.is_ne())
             .unwrap_or(Ordering::Equal)
     }

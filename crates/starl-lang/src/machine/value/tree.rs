@@ -103,7 +103,7 @@ impl Value {
         let scalar = match (self, kind) {
             (Value::Bool(value), Type::Bool) => u64::from(*value),
             (Value::Int(value), Type::Int) => *value as u64,
-            (Value::Float(value), Type::Float) => crate::machine::interpreter::scalar::bits(*value),
+            (Value::Float(value), Type::Float) => crate::machine::types::bits(*value),
             (Value::Time(value), Type::Time) => value.0.min(i64::MAX as u64),
             (Value::Duration(value), Type::Duration) => value.0.min(i64::MAX as u64),
             (Value::Robot(value), Type::Robot) => u64::from(value.0),
@@ -115,9 +115,7 @@ impl Value {
                 }
             }
             (Value::Point(value), Type::Point) => {
-                scalars.extend(
-                    [value.x, value.y, value.z].map(crate::machine::interpreter::scalar::bits),
-                );
+                scalars.extend([value.x, value.y, value.z].map(crate::machine::types::bits));
                 return true;
             }
             (Value::None, Type::Optional(_)) => {

@@ -6,14 +6,13 @@
 //!
 //! Invariant: facts at an instruction only ever become fewer, so the analysis ends.
 
+use crate::machine::bytecode::{Bytecode, Function, FunctionKind};
 use crate::machine::error::LoadError;
 use crate::machine::instruction::Instruction;
 use crate::machine::interpreter::workspace::{OBJECT_WINDOW, WINDOW};
 use crate::machine::operand::{FIRST_STATE_OPERAND, Use};
-use crate::machine::program::{Bytecode, Function, FunctionKind};
 use crate::machine::types::Layout;
 use crate::machine::verify::Tables;
-use crate::machine::verify::rules::Rules;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -22,6 +21,18 @@ const UNWRITTEN: u16 = u16::MAX;
 
 /// A rule that is broken.
 pub(in crate::machine) type Broken = &'static str;
+
+/// Where an instruction may lead.
+pub(in crate::machine) struct Next {
+    pub target: Option<u32>,
+    pub falls_through: bool,
+}
+
+/// Checks of single instructions.
+pub(in crate::machine) trait Rules {
+    /// Checks an instruction of the function with this index, and learns from it.
+    fn step(&mut self, function: usize, instruction: &Instruction) -> Result<Next, Broken>;
+}
 
 /// The facts about the registers before an instruction.
 #[derive(Clone, PartialEq, Eq)]

@@ -10,10 +10,10 @@ mod flow;
 mod objects;
 mod rules;
 
+use crate::machine::bytecode::{Bytecode, Claim, Function, FunctionKind, Origin};
 use crate::machine::error::LoadError;
 use crate::machine::interpreter::workspace::{OBJECT_WINDOW, WINDOW};
 use crate::machine::operand::FIRST_STATE_OPERAND;
-use crate::machine::program::{Bytecode, Claim, Function, FunctionKind, Origin};
 use crate::machine::types::{DEEPEST_TYPE, Layout, ObjectType, Parts, Type};
 use alloc::vec::Vec;
 

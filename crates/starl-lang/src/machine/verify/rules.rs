@@ -3,26 +3,14 @@
 //! The rules for scalars and jumps follow from the operands' types. The rules that depend on the types of values are
 //! here, instruction by instruction.
 
+use crate::machine::bytecode::FunctionKind;
 use crate::machine::instruction::Instruction;
 use crate::machine::operand::Use;
-use crate::machine::program::FunctionKind;
 use crate::machine::types::{ObjectType, Parts};
-use crate::machine::verify::flow::{Broken, Context};
-
-/// Where an instruction may lead.
-pub(in crate::machine) struct Next {
-    pub target: Option<u32>,
-    pub falls_through: bool,
-}
+use crate::machine::verify::flow::{Broken, Context, Next, Rules};
 
 pub(super) const WRONG_TYPE: Broken = "an object is not of the type that the instruction works on";
 const NO_TYPE: Broken = "there is no such type";
-
-/// Checks of single instructions.
-pub(in crate::machine) trait Rules {
-    /// Checks an instruction of the function with this index, and learns from it.
-    fn step(&mut self, function: usize, instruction: &Instruction) -> Result<Next, Broken>;
-}
 
 impl Rules for Context<'_> {
     fn step(&mut self, function: usize, instruction: &Instruction) -> Result<Next, Broken> {

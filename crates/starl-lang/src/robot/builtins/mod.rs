@@ -220,9 +220,8 @@ pub static BUILTINS: &[Builtin] = &[
                 return Err(alloc::format!("no Int is from {low} to below {high}").into());
             }
             let random = host.context.robot.random();
-            let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
             let span = high.wrapping_sub(low) as u64;
-            let offset = (u128::from(bits) * u128::from(span)) >> 64;
+            let offset = (u128::from(random.word()) * u128::from(span)) >> 64;
             call.set_int(0, low.wrapping_add(offset as i64));
             Ok(0)
         },

@@ -1,6 +1,7 @@
 //! Output to observers: logs, events and drawings.
 
 use crate::machine::{HostCall, Value};
+use crate::robot::Failure;
 use crate::robot::arguments::{Arguments, Called};
 use crate::robot::host::RobotHost;
 use alloc::string::{String, ToString};
@@ -110,6 +111,6 @@ pub fn draw_nothing(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Ca
 
 /// The program ends here, without the following statements.
 pub fn fail(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
-    host.failure = Some(Arguments::of(call).text().into());
+    host.failure = Some(Failure::Told(Arguments::of(call).text().into()));
     Err("the program cannot continue".into())
 }

@@ -3,10 +3,9 @@
 use super::Fleet;
 use super::evaluation::limits;
 use super::observables::{Counted, PropertyHost};
-use crate::machine::{Claim, Machine};
+use crate::machine::{Claim, Fault, Machine};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
-use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::cell::Cell;
 use starl_core::{RobotId, Time};
@@ -39,12 +38,12 @@ impl Condition {
     }
 
     /// Whether it is true of each robot that has started, in ascending order; without a robot if it is about the fleet.
-    /// An error is a text that says why evaluating it fails.
+    /// An error says why evaluating it fails.
     pub fn ask(
         &mut self,
         now: Time,
         fleet: &dyn Fleet,
-    ) -> Vec<(Option<RobotId>, Result<bool, String>)> {
+    ) -> Vec<(Option<RobotId>, Result<bool, Fault>)> {
         let robots = fleet.robots().iter().copied();
         let roster: Vec<RobotId> = robots
             .filter(|&robot| fleet.state_of(robot).is_some())
@@ -77,7 +76,7 @@ impl Condition {
                 &mut host,
                 limits(roster.len()),
             );
-            asked.push((row, truth.map_err(|error| error.fault.to_string())));
+            asked.push((row, truth.map_err(|error| error.fault)));
         }
         asked
     }

@@ -3,6 +3,7 @@
 use super::observables::PropertyHost;
 use super::reads::{Reads, first_function};
 use crate::machine::{Property, Value};
+use crate::robot::Failure;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
@@ -44,8 +45,8 @@ pub enum Reason {
         /// The deadline, counted from the cause.
         within: Duration,
     },
-    /// Evaluating it failed; the text says where and why.
-    Undecided(String),
+    /// Evaluating it failed.
+    Undecided(Failure),
 }
 
 /// The state of a robot at the violation.
@@ -109,7 +110,7 @@ impl fmt::Display for Violation {
             Reason::NotFollowed { since, within } => {
                 write!(f, "the consequence is not true within {within} of {since}")?;
             }
-            Reason::Undecided(text) => write!(f, "cannot be judged: {text}")?,
+            Reason::Undecided(failure) => write!(f, "cannot be judged: {failure}")?,
         }
         if self.robots.is_empty() && !self.states.is_empty() {
             f.write_str("; looked at last")?;

@@ -30,9 +30,6 @@ const SPEED_GAIN: f64 = 1.8;
 /// Climb per height left while taking off, times the time constant of the climb: a quarter is
 /// critical damping.
 const HEIGHT_GAIN: f64 = 0.25;
-/// A drone that starts to hold its position chooses the one that it would reach after this time, seconds, so that it
-/// brakes without flying back.
-pub(super) const BRAKING_TIME: f64 = 0.6;
 
 impl Dynamics {
     /// The references under `command` in `mode`, in this motion, when holding the place `anchor`.

@@ -12,8 +12,8 @@
 //! asks for, so the horizontal acceleration is (g + z'') times the first two rows over the third, less
 //! drag: D/m (velocity - wind).
 
+use super::GRAVITY;
 use super::mode;
-use super::{GRAVITY, controller};
 use crate::{Disturbance, State};
 use starl_core::math::{sincos, wrap_angle};
 use starl_core::{Command, Point, Pose, Twist};
@@ -24,6 +24,10 @@ const LONGEST_STEP: f64 = 0.02;
 
 /// At this part of the safe height taking off is over.
 const HIGH_ENOUGH: f64 = 0.98;
+
+/// A drone that starts to hold its position chooses the one that it would reach after this time, seconds, so that it
+/// brakes without flying back.
+const BRAKING_TIME: f64 = 0.6;
 
 /// The constants of the equations, in SI units and radians.
 #[derive(Clone, Debug)]
@@ -82,7 +86,7 @@ impl Dynamics {
             let braking = if before == mode::LANDED {
                 0.0
             } else {
-                controller::BRAKING_TIME
+                BRAKING_TIME
             };
             anchor = [0, 1].map(|axis| motion.position[axis] + braking * motion.velocity[axis]);
         }

@@ -1,25 +1,18 @@
-//! How a leader sends single members their missing entries: as much as may be in transit at once, and lost entries
-//! again.
+//! The leader's log: how it grows, when its beginning is dropped, and how the leader sends single members their missing
+//! entries: as much as may be in transit at once, and lost entries again.
 //!
 //! A member reports the prefix in which its log equals the leader's, and the missing parts after that. If it
 //! has heard a round well after the leader sent it these parts, they were lost.
 
-use super::followers::Follower;
+use super::followers::{Answer, Follower};
 use super::life::Life;
-use super::packet::Body;
-use super::{CHUNK, FURTHEST, Role, Total, WINDOW};
+use super::packet::{Body, Entry, What};
+use super::{CHUNK, FURTHEST, MOST_BYTES, Member, Role, Total, WINDOW};
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot};
 
-/// A member's report about its log.
-pub(super) struct Answer {
-    pub term: u32,
-    pub round: u64,
-    pub through: u64,
-    pub lacks: Vec<(u64, u64)>,
-    pub applied: u64,
-    pub call: u64,
-}
+/// The log is kept for followers that were not heard for fewer ticks than this.
+const LONGEST_ABSENCE: u32 = 240;
 
 impl Total {
     /// A member says how far it is.
@@ -142,5 +135,74 @@ impl Total {
         {
             follower.fed_through = last;
         }
+    }
+}
+
+impl Member {
+    /// Whether more entries may be added to the log before the present ones are decided.
+    pub fn has_room(&self) -> bool {
+        self.commit >= self.log.last() || self.log.bytes() < 2 * MOST_BYTES
+    }
+
+    /// Puts an entry into the log of a leader.
+    pub fn put(&mut self, what: What) {
+        let term = self.term;
+        if let Role::Leading(leading) = &mut self.role {
+            leading.roll.advance(&what);
+            self.log.push(Entry { term, what });
+        }
+    }
+
+    /// The entries after a given one, up to the size of a datagram, and the index of the last.
+    pub fn append_after(&self, previous: u64, last: u64, floor: u64, is_beat: bool) -> (Body, u64) {
+        let mut entries = Vec::new();
+        let (mut end, mut size) = (previous, 0);
+        while end < last
+            && size < CHUNK
+            && let Some(entry) = self.log.get(end + 1)
+        {
+            size += entry.size();
+            entries.push(entry.clone());
+            end += 1;
+        }
+        let round = match &self.role {
+            Role::Leading(leading) => leading.round,
+            _ => 0,
+        };
+        let body = Body::Append {
+            term: self.term,
+            round,
+            previous,
+            previous_term: self.log.term(previous).unwrap_or(0),
+            entries,
+            commit: self.commit,
+            floor,
+            is_beat,
+        };
+        (body, end)
+    }
+
+    /// The index up to which entries can be dropped: all members that are heard have delivered them, or there are too
+    /// many.
+    pub fn floor(&self) -> u64 {
+        let Role::Leading(leading) = &self.role else {
+            return 0;
+        };
+        if self.log.is_long() {
+            // An eighth at a time.
+            let length = self.log.last() - self.log.base();
+            return self.applied.min(self.log.base() + 1 + length / 8);
+        }
+        let is_heard = |voter: &Life| {
+            leading.followers.contains_key(&voter.robot) || Some(*voter) == self.leader
+        };
+        if leading.age < LONGEST_ABSENCE && !self.log.voters().iter().all(is_heard) {
+            return self.log.base();
+        }
+        let followers = leading.followers.values();
+        let near = followers.filter(|follower| follower.silence < LONGEST_ABSENCE);
+        let slowest = near.map(|follower| follower.applied).min().unwrap_or(0);
+        // Robots that were just let in may be about to ask for what came since.
+        slowest.min(leading.past[0].0)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::early::Part;
 use super::election::Claim;
-use super::feeding::Answer;
+use super::followers::Answer;
 use super::following::Continuation;
 use super::life::Life;
 use super::packet::{Body, Generation, Question, Said};

@@ -1,7 +1,7 @@
 //! An election by ballots under way: drawing, telling, asking again, deciding.
 
 use super::Ballots;
-use crate::election::options::{no_later, random_bits};
+use crate::election::options::no_later;
 use crate::election::packet::{Outcome, Packet};
 use crate::election::rules::Scene;
 use alloc::collections::BTreeMap;
@@ -39,8 +39,8 @@ impl Draw {
         for ballot in self.ballots.values_mut() {
             *ballot = random.bits();
         }
-        self.until = Time(random_bits(random));
-        self.repeat_at = Time(random_bits(random));
+        self.until = Time(random.magnitude());
+        self.repeat_at = Time(random.magnitude());
         self.repetitions = random.bits();
     }
 }

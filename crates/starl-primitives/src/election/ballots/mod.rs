@@ -10,7 +10,7 @@
 
 mod draw;
 
-use super::options::{no_later, random_bits};
+use super::options::no_later;
 use super::packet::{Outcome, Packet};
 use super::rules::{Leadership, Rules, Scene};
 use draw::Draw;
@@ -206,8 +206,8 @@ impl Rules for Ballots {
     }
 
     fn corrupt(&mut self, random: &mut Random) {
-        self.round = random_bits(random);
-        self.due = Time(random_bits(random));
+        self.round = random.magnitude();
+        self.due = Time(random.magnitude());
         if let Some(draw) = &mut self.draw {
             draw.corrupt(random);
         }

@@ -3,7 +3,7 @@
 use super::super::Resources;
 use super::super::common::{Alarm, Common};
 use super::super::quorum::quorum;
-use super::enough::Enough;
+use super::request::Enough;
 use super::request::Request;
 use super::{Arbitration, Post, is_lease};
 use crate::incarnation::Incarnation;

@@ -3,18 +3,9 @@
 use super::super::common::Common;
 use super::Post;
 use super::packet::{Behind, Packet};
-use super::request::{Asked, Request};
+use super::request::{Asked, Enough, Request};
 use alloc::vec::Vec;
 use starl_core::{Duration, RobotId, Time};
-
-/// How many grants are enough, and for how long.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Enough {
-    /// All of those asked, for as long as the robot likes.
-    All,
-    /// This number of grants with the same fencing number, for this time after the request.
-    Majority(usize, Duration),
-}
 
 impl Request {
     /// The number with which it may enter, and until when; none if it may not yet. Requests one number from all if

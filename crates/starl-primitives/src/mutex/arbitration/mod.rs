@@ -25,11 +25,11 @@ use super::options::Algorithm;
 
 use alloc::vec::Vec;
 use arbiter::Arbiter;
-use enough::Enough;
 use entry::Terms;
 use packet::{Behind, Packet};
 use post::Post;
 use recovery::Recovery;
+use request::Enough;
 use request::Request;
 
 use starl_core::{Destination, Duration, Message, Random, Robot, RobotId};

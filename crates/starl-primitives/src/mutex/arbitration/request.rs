@@ -6,7 +6,6 @@
 use super::super::Resources;
 use super::super::common::{Common, RequestId};
 use super::Post;
-use super::enough::Enough;
 use super::packet::{Behind, Packet, Wish};
 use alloc::collections::{BTreeMap, VecDeque};
 use alloc::vec::Vec;
@@ -248,4 +247,13 @@ impl Request {
             }
         }
     }
+}
+
+/// How many grants are enough, and for how long.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Enough {
+    /// All of those asked, for as long as the robot likes.
+    All,
+    /// This number of grants with the same fencing number, for this time after the request.
+    Majority(usize, Duration),
 }

@@ -1,5 +1,7 @@
 //! Decodes grey images: PGM by hand, PNG by the `png` crate.
 
+use thiserror::Error;
+
 /// A grey image, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Image {
@@ -12,38 +14,55 @@ pub(super) struct Image {
 /// An image of more pixels is refused; it would be a map of a town at a pixel a centimetre.
 const MOST_PIXELS: usize = 1 << 26;
 
-/// The image in a file, or why it cannot be read.
-pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
+/// Why an image cannot be read.
+#[derive(Debug, Error)]
+pub(super) enum ImageError {
+    #[error("it begins like neither a PGM nor a PNG")]
+    Unknown,
+    #[error("it has no pixels")]
+    Empty,
+    #[error("{columns} by {rows} pixels are too many")]
+    TooLarge { columns: usize, rows: usize },
+    #[error("its {0} is missing or not a number")]
+    Header(&'static str),
+    #[error("its greatest value is {0}, not 1 to 65535")]
+    Greatest(usize),
+    #[error("it ends after {found} of {pixels} pixels")]
+    Short { found: usize, pixels: usize },
+    #[error("it has a pixel of {value}, above its greatest value {greatest}")]
+    TooBright { value: usize, greatest: usize },
+    #[error(transparent)]
+    Png(#[from] png::DecodingError),
+}
+
+/// The image in a file.
+pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageError> {
     if bytes.starts_with(b"P2") || bytes.starts_with(b"P5") {
         return pgm(bytes);
     }
     if bytes.starts_with(b"\x89PNG") {
         return png(bytes);
     }
-    Err("it begins like neither a PGM nor a PNG".to_string())
+    Err(ImageError::Unknown)
 }
 
-fn size(columns: usize, rows: usize) -> Result<usize, String> {
+fn size(columns: usize, rows: usize) -> Result<usize, ImageError> {
     match columns.checked_mul(rows) {
-        Some(0) => Err("it has no pixels".to_string()),
+        Some(0) => Err(ImageError::Empty),
         Some(pixels) if pixels <= MOST_PIXELS => Ok(pixels),
-        _ => Err(format!("{columns} by {rows} pixels are too many")),
+        _ => Err(ImageError::TooLarge { columns, rows }),
     }
 }
 
 /// Netpbm's PGM: magic, width, height, greatest value, then the values, from black to white; in P2 as
 /// decimal numbers, in P5 as one or two bytes each, the high one first.
-fn pgm(bytes: &[u8]) -> Result<Image, String> {
+fn pgm(bytes: &[u8]) -> Result<Image, ImageError> {
     let mut reader = Numbers { bytes, at: 2 };
-    let mut header = |what: &str| {
-        reader
-            .next()
-            .ok_or_else(|| format!("its {what} is missing or not a number"))
-    };
+    let mut header = |what| reader.next().ok_or(ImageError::Header(what));
     let (columns, rows) = (header("width")?, header("height")?);
     let greatest = header("greatest value")?;
     if !(1..=65_535).contains(&greatest) {
-        return Err(format!("its greatest value is {greatest}, not 1 to 65535"));
+        return Err(ImageError::Greatest(greatest));
     }
     let pixels = size(columns, rows)?;
     let values: Vec<usize> = if bytes[1] == b'2' {
@@ -64,12 +83,11 @@ fn pgm(bytes: &[u8]) -> Result<Image, String> {
         }
     };
     if values.len() < pixels {
-        return Err(format!("it ends after {} of {pixels} pixels", values.len()));
+        let found = values.len();
+        return Err(ImageError::Short { found, pixels });
     }
-    if let Some(value) = values.iter().find(|&&value| value > greatest) {
-        return Err(format!(
-            "it has a pixel of {value}, above its greatest value {greatest}"
-        ));
+    if let Some(&value) = values.iter().find(|&&value| value > greatest) {
+        return Err(ImageError::TooBright { value, greatest });
     }
     let darkness = values
         .iter()
@@ -112,20 +130,20 @@ impl Iterator for Numbers<'_> {
     }
 }
 
-fn png(bytes: &[u8]) -> Result<Image, String> {
+fn png(bytes: &[u8]) -> Result<Image, ImageError> {
     let limits = png::Limits {
         bytes: 16 * MOST_PIXELS,
     };
     let mut decoder = png::Decoder::new_with_limits(std::io::Cursor::new(bytes), limits);
     decoder.set_transformations(png::Transformations::normalize_to_color8());
-    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let mut reader = decoder.read_info()?;
     let (columns, rows) = (reader.info().width as usize, reader.info().height as usize);
     let pixels = size(columns, rows)?;
-    let length = reader.output_buffer_size().ok_or("it is too large")?;
+    let length = reader
+        .output_buffer_size()
+        .ok_or(ImageError::TooLarge { columns, rows })?;
     let mut data = vec![0; length];
-    let frame = reader
-        .next_frame(&mut data)
-        .map_err(|error| error.to_string())?;
+    let frame = reader.next_frame(&mut data)?;
     let samples = frame.color_type.samples();
     let colours = if samples >= 3 { 3 } else { 1 };
     let transparency = matches!(samples, 2 | 4);
@@ -144,7 +162,8 @@ fn png(bytes: &[u8]) -> Result<Image, String> {
         .map(darkness)
         .collect();
     if darkness.len() != pixels {
-        return Err("its rows are incomplete".to_string());
+        let found = darkness.len();
+        return Err(ImageError::Short { found, pixels });
     }
     Ok(Image {
         columns,

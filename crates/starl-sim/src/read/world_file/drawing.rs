@@ -4,13 +4,14 @@
 //! origin, and y points up. Curves become straight lines no longer than about [`STEP`].
 
 use super::super::Placed;
+use super::super::contents::Contents;
 use super::super::report::{Origin, Report};
-use super::super::world::Contents;
 use roxmltree::{Document, Node};
 use starl_core::{Point, WayPoint, math};
 use std::f64::consts::TAU;
 use std::str::FromStr;
 use svgtypes::{PointsParser, SimplePathSegment, SimplifyingPathParser, Transform, ViewBox};
+use thiserror::Error;
 
 /// How long the straight lines are that curves are made of, millimetres.
 const STEP: f64 = 50.0;
@@ -20,6 +21,22 @@ const MOST: f64 = 256.0;
 
 /// Elements that draw, but not lines.
 const NOT_LINES: [&str; 3] = ["image", "text", "use"];
+
+/// Why the lines of an element cannot be read.
+#[derive(Debug, Error)]
+enum DrawingError {
+    #[error("`{0}` has no lines that robots could follow; make it a path")]
+    NoLines(String),
+    #[error("{name}={text:?} is not a number; give millimetres, without a unit")]
+    NotNumber { name: &'static str, text: String },
+    #[error("the path cannot be read: {0}")]
+    Path(#[from] svgtypes::Error),
+    #[error("transform={text:?} cannot be read: {error}")]
+    Transform {
+        text: String,
+        error: svgtypes::Error,
+    },
+}
 
 /// A stroke's points in units of the drawing.
 type Stroke = Vec<(f64, f64)>;
@@ -54,8 +71,8 @@ pub(super) fn read(text: &str, start: Origin, contents: &mut Contents, report: &
         let read = strokes(node).and_then(|strokes| Ok((strokes, transform_of(node)?)));
         let (strokes, transform) = match read {
             Ok(read) => read,
-            Err(message) => {
-                report.problem(origin, "", message);
+            Err(error) => {
+                report.problem(origin, "", error.to_string());
                 continue;
             }
         };
@@ -101,7 +118,7 @@ fn lower_left(svg: Node<'_, '_>) -> Option<(f64, f64)> {
 }
 
 /// The strokes of an element.
-fn strokes(node: Node<'_, '_>) -> Result<Vec<Stroke>, String> {
+fn strokes(node: Node<'_, '_>) -> Result<Vec<Stroke>, DrawingError> {
     let get = |name| number(node, name);
     let name = node.tag_name().name();
     Ok(match name {
@@ -116,25 +133,22 @@ fn strokes(node: Node<'_, '_>) -> Result<Vec<Stroke>, String> {
         }
         "circle" => vec![ellipse(get("cx")?, get("cy")?, get("r")?, get("r")?)],
         "ellipse" => vec![ellipse(get("cx")?, get("cy")?, get("rx")?, get("ry")?)],
-        _ if NOT_LINES.contains(&name) => {
-            return Err(format!(
-                "`{name}` has no lines that robots could follow; make it a path"
-            ));
-        }
+        _ if NOT_LINES.contains(&name) => return Err(DrawingError::NoLines(name.into())),
         _ => Vec::new(),
     })
 }
 
 /// A number without a unit; 0 if it is left out.
-fn number(node: Node<'_, '_>, name: &str) -> Result<f64, String> {
+fn number(node: Node<'_, '_>, name: &'static str) -> Result<f64, DrawingError> {
     let Some(text) = node.attribute(name) else {
         return Ok(0.0);
     };
     match text.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(format!(
-            "{name}={text:?} is not a number; give millimetres, without a unit"
-        )),
+        _ => {
+            let text = text.into();
+            Err(DrawingError::NotNumber { name, text })
+        }
     }
 }
 
@@ -162,10 +176,10 @@ fn pieces(length: f64) -> f64 {
 }
 
 /// The strokes of a path: one for each time that the pen is put down.
-fn path(data: &str) -> Result<Vec<Stroke>, String> {
+fn path(data: &str) -> Result<Vec<Stroke>, DrawingError> {
     let mut strokes: Vec<Stroke> = Vec::new();
     for segment in SimplifyingPathParser::from(data) {
-        let segment = segment.map_err(|error| format!("the path cannot be read: {error}"))?;
+        let segment = segment?;
         if let SimplePathSegment::MoveTo { x, y } = segment {
             strokes.push(vec![(x, y)]);
             continue;
@@ -224,12 +238,14 @@ fn on_curve(controls: &[(f64, f64)], share: f64) -> (f64, f64) {
 }
 
 /// The transforms of an element and all around it.
-fn transform_of(node: Node<'_, '_>) -> Result<Transform, String> {
+fn transform_of(node: Node<'_, '_>) -> Result<Transform, DrawingError> {
     let mut whole = Transform::default();
     for outer in node.ancestors() {
         if let Some(text) = outer.attribute("transform") {
-            let own = Transform::from_str(text)
-                .map_err(|error| format!("transform={text:?} cannot be read: {error}"))?;
+            let own = Transform::from_str(text).map_err(|error| {
+                let text = text.into();
+                DrawingError::Transform { text, error }
+            })?;
             whole = joined(own, whole);
         }
     }

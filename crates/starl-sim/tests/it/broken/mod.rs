@@ -5,7 +5,7 @@ pub mod election;
 pub mod mutex;
 pub mod writes;
 
-use starl_core::{Duration, Point, Pose, Program, Time};
+use starl_core::{Duration, FileError, Point, Pose, Program, Time};
 use starl_motion::models;
 use starl_sim::read::{self, Request, Source};
 use starl_sim::scenario::{Clock, Group, SensorSuite};
@@ -49,8 +49,8 @@ pub struct Quarry {
 pub fn read(text: &str) -> Option<Scenario> {
     struct NoFiles;
     impl read::Loader for NoFiles {
-        fn load(&self, _: &str) -> Result<Vec<u8>, String> {
-            Err("there are no files".to_string())
+        fn load(&self, _: &str) -> Result<Vec<u8>, FileError> {
+            Err(FileError::Missing)
         }
     }
     let request = Request::new(Source::new("saved.toml", text));

@@ -3,6 +3,7 @@
 
 pub mod fields;
 
+use starl_core::FileError;
 use starl_sim::read::{self, Loader, Override, Problems, Request, Resolved, Source};
 use std::collections::BTreeMap;
 
@@ -11,11 +12,8 @@ use std::collections::BTreeMap;
 pub struct Files(pub BTreeMap<String, Vec<u8>>);
 
 impl Loader for Files {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
-        self.0
-            .get(path)
-            .cloned()
-            .ok_or_else(|| "there is no such file".to_string())
+    fn load(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        self.0.get(path).cloned().ok_or(FileError::Missing)
     }
 }
 
