@@ -1,20 +1,13 @@
 // The world in a browser: it is painted, only when something changes, and answers to the mouse.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, useBrowser, visit } from "./support.mjs";
 
-let [browser, server] = [null, null];
-before(async () => {
-  [browser, server] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await server?.close();
-});
+useBrowser();
 
 test("the view of the world stands still when nothing happens, and measures with two clicks", async () => {
-  const { page, context, errors } = await visit(browser, `${server.url}?example=race`);
+  const { page, context, errors } = await visit(`${site.url}?example=race`);
   await page.getByRole("button", { name: "From above" }).click();
   await page.waitForTimeout(1500);
   const frames = await page.evaluate(async () => {
@@ -49,7 +42,7 @@ test("the view of the world stands still when nothing happens, and measures with
 });
 
 test("the sensors of a chosen robot are drawn, and can be hidden", async () => {
-  const { page, context, errors } = await visit(browser, `${server.url}?example=diffusion`);
+  const { page, context, errors } = await visit(`${site.url}?example=diffusion`);
   await page.locator(".play:enabled").waitFor();
   await page.getByLabel("To the next event").click();
   await page.getByRole("listbox", { name: "Robots" }).getByRole("option").first().click();
