@@ -54,15 +54,22 @@ test("the sensors of a chosen robot are drawn, and can be hidden", async () => {
   const segments = () =>
     page.evaluate(async () => {
       const pen = CanvasRenderingContext2D.prototype;
-      const { lineTo } = pen;
+      const { lineTo, clearRect } = pen;
       let count = 0;
+      // A busy machine takes its time for the next picture.
+      const drawn = new Promise((resolve) => {
+        pen.clearRect = function (...area) {
+          setTimeout(resolve);
+          return clearRect.apply(this, area);
+        };
+      });
       pen.lineTo = function (...to) {
         count++;
         return lineTo.apply(this, to);
       };
       document.querySelector(".world-picture").dispatchEvent(new KeyboardEvent("keydown", { key: "+" }));
-      await new Promise((resolve) => setTimeout(resolve, 400));
-      pen.lineTo = lineTo;
+      await drawn;
+      Object.assign(pen, { lineTo, clearRect });
       return count;
     });
   const shown = await segments();
