@@ -1,4 +1,4 @@
-// Archives of files: the order stays, and one that somebody made cannot fill the memory.
+// Archives of files: the order stays, and a hostile one cannot fill the memory.
 
 import { expect, test } from "vitest";
 import { unzip, zip } from "../../src/share/zip.ts";
