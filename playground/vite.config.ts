@@ -1,5 +1,6 @@
 import { defineConfig } from "vite";
 import { offline } from "./build/offline.ts";
+import { preloadModule } from "./build/preload.ts";
 
 export default defineConfig({
   // Relative addresses: the page works in any folder of any static host.
@@ -11,7 +12,7 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
   },
   worker: { format: "es" },
-  plugins: [offline()],
+  plugins: [preloadModule(), offline()],
   server: { host: "127.0.0.1", fs: { allow: [".."] } },
   test: { include: ["tests/unit/**/*.test.ts"] },
 });

@@ -1,5 +1,5 @@
 import { defineConfig } from "vite";
-import { inlineWorkers, moduleFromName, oneFile, withoutBench } from "./build/embedded.ts";
+import { inlineWorkers, moduleFromFile, oneFile, withoutBench } from "./build/embedded.ts";
 
 // The page as one file, for notebooks: build/embedded.ts.
 export default defineConfig({
@@ -17,8 +17,7 @@ export default defineConfig({
   // Browsers start no workers of modules from a file on disk.
   worker: {
     format: "iife",
-    plugins: () => [moduleFromName()],
     rolldownOptions: { output: { codeSplitting: false } },
   },
-  plugins: [inlineWorkers(), moduleFromName(), withoutBench(), oneFile()],
+  plugins: [inlineWorkers(), moduleFromFile(), withoutBench(), oneFile()],
 });

@@ -452,6 +452,11 @@ export class Simulation {
    * such variable, for programs in Rust, and before the program has started.
    */
   states(): (string | null)[];
+  /**
+   * The values of shared variables in records since the last call: records hold hashes of them. Values of linearizable
+   * variables and of programs in Rust are not among them, nor those that could be of several types.
+   */
+  values(): SharedValue[];
   /** All there is to see of a robot now. */
   robot(robot: number): Robot;
   /** What has come of the run so far. */
@@ -478,6 +483,9 @@ export interface Batch {
   /** How many were dropped since the last call: more than 200,000 are not kept. */
   dropped: number;
 }
+
+/** A value of a shared variable: the variable, the hash in records, and the value as text. */
+export type SharedValue = [variable: string, hash: number, value: string];
 
 /** A record as it stands in a trace: docs/reference/trace.md. */
 export interface TraceRecord {
@@ -630,6 +638,8 @@ export interface Report {
   messages: { sent: number; delivered: number; lost: number; dropped: number; retransmitted: number };
   /** How often bodies have come to touch. */
   collisions: number;
+  /** The network as it is now: the positions of all knobs. */
+  network: NetworkKnob[];
   properties: {
     property: string;
     verdict: "holds" | "violated" | "open" | "unused";

@@ -251,6 +251,10 @@ export class Simulation {
     return this.#request("states");
   }
 
+  values() {
+    return this.#request("values");
+  }
+
   robot(robot) {
     return this.#request("robot", { robot });
   }

@@ -7,24 +7,24 @@ import type { Plugin } from "vite";
 
 const WORKER = 'new Worker(new URL("./worker.ts", import.meta.url), { type: "module" })';
 
-/** Puts workers into the bundle. Their name holds the WebAssembly module. */
+/** Puts workers into the bundle. */
 export function inlineWorkers(): Plugin {
   return {
     name: "inline-workers",
     enforce: "pre",
     transform(code) {
       if (!code.includes(WORKER)) return null;
-      const inlined = code.replace(WORKER, 'new InlineWorker({ name: globalThis.starlModule ?? "" })');
+      const inlined = code.replace(WORKER, "new InlineWorker()");
       return `import InlineWorker from "./worker.ts?worker&inline";\n${inlined}`;
     },
   };
 }
 
-/** Lets workers take the module from their name. */
-export function moduleFromName(): Plugin {
+/** Takes the module from the file of the page. */
+export function moduleFromFile(): Plugin {
   const embedded = fileURLToPath(new URL("../src/engine/module.embedded.ts", import.meta.url));
   return {
-    name: "module-from-name",
+    name: "module-from-file",
     enforce: "pre",
     resolveId: (source) => (source.endsWith("/module.ts") ? embedded : null),
   };
@@ -73,10 +73,6 @@ function page(script: string, style: string): string {
 <script type="text/plain" id="starl-run">{{RUN}}</script>
 <script type="text/plain" id="starl-trace">{{TRACE}}</script>
 <script type="text/plain" id="starl-module">{{MODULE}}</script>
-<script>
-const packed = document.getElementById("starl-module").textContent.trim();
-if (packed) globalThis.starlModule = "data:application/gzip;base64," + packed;
-</script>
 <script type="module">${script.replaceAll("</script", "<\\/script")}</script>
 </body></html>
 `;

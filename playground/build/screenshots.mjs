@@ -9,7 +9,7 @@ import { mkdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { launch, serve, visit } from "../tests/browser/support.mjs";
+import { site, start, stop, visit } from "../tests/browser/support.mjs";
 
 const OUT = fileURLToPath(new URL("../../docs/pictures/", import.meta.url));
 const FRAMES = join(tmpdir(), "starl-frames");
@@ -22,7 +22,7 @@ const FRAME_EVERY = 0.34;
 
 /** Opens an example, and runs it to its end, so that every moment is known. */
 async function open(example, options) {
-  const visited = await visit(browser, `${site.url}?example=${example}`, options);
+  const visited = await visit(`${site.url}?example=${example}`, options);
   const { page } = visited;
   await page.locator(".play:enabled").waitFor();
   await page.getByLabel("Speed of playback").selectOption("Infinity");
@@ -46,8 +46,7 @@ async function goTo(page, moment) {
   await page.waitForTimeout(600);
 }
 
-const site = await serve();
-const browser = await launch();
+await start();
 mkdirSync(OUT, { recursive: true });
 
 const race = await open("race", { viewport: WINDOW });
@@ -75,5 +74,4 @@ for (let frame = 0; frame < FRAME_COUNT; frame++) {
   await moving.page.screenshot({ path: `${FRAMES}/${String(frame).padStart(2, "0")}.png`, clip });
 }
 await moving.context.close();
-await browser.close();
-await site.close();
+await stop();

@@ -3,21 +3,29 @@
 import { render } from "preact";
 import { App } from "./app/App.tsx";
 import { askHost, run, start } from "./app/context.ts";
+import { simulator } from "./engine/simulator.ts";
 import { begin } from "./project/begin.ts";
 import { returning } from "./project/project.ts";
 import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/controls.css";
-import { stage } from "./world/world.ts";
+import { loadScreen, loadStage } from "./world/load.ts";
+
+// Everything that a run needs loads at once: the module (build/preload.ts), the worker, what the host shows, and what
+// paints runs.
+const asked = askHost();
+void asked.then(({ mode }) => mode === "web" && simulator().catch(() => undefined));
 
 const page = document.getElementById("page");
 if (!page) throw new Error("index.html has an element #page");
 render(<App />, page);
 
 // Every visit except the first shows a run: what paints it loads beside everything else.
-if (returning || location.search) void stage().catch(() => undefined);
+if (returning || location.search) {
+  for (const load of [loadScreen, loadStage]) load().catch(() => undefined);
+}
 
-start.value = await askHost();
+start.value = await asked;
 switch (start.value.mode) {
   case "run":
     await run.open({ kind: "server", opened: start.value.opened });

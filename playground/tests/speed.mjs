@@ -1,58 +1,62 @@
-// Measures what a first visit loads and how long it waits: node tests/speed.mjs, after `make page`.
+// Measures a first visit, after `make page`: node tests/speed.mjs. Prints the bytes on the wire and the time until
+// examples can be chosen and until Race moves, from a host that compresses by Brotli and from one that compresses by
+// gzip. Chromium counts the bytes, headers included. With --files, all files are listed.
 
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import { brotliCompressSync, gzipSync } from "node:zlib";
-import { DIST, launch, serve, visit } from "./browser/support.mjs";
+import { site, start, stop, visit } from "./browser/support.mjs";
 
 const RUNS = 5;
-const site = await serve();
-const browser = await launch();
 const median = (list) => list.sort((a, b) => a - b)[Math.floor(list.length / 2)];
 
-/** Opens a page in a new context, without a cache; gives the files that it loads, and the ms until `ready`. */
+/** Opens a page in a new context, without a cache; gives the bytes on the wire and the ms until `ready`. */
 async function cold(address, ready) {
-  const loaded = new Set();
-  const began = performance.now();
-  const { page, context } = await visit(browser, "about:blank");
-  page.on("request", (request) => loaded.add(new URL(request.url()).pathname));
+  const { page, context } = await visit("about:blank");
+  const session = await context.newCDPSession(page);
+  await session.send("Network.enable");
+  let bytes = 0;
+  session.on("Network.loadingFinished", ({ encodedDataLength }) => {
+    bytes += encodedDataLength;
+  });
   const opened = performance.now();
   await page.goto(site.url + address);
   await ready(page);
   const took = performance.now() - opened;
-  await page.waitForTimeout(1500);
+  const until = bytes;
+  const marks = await page.evaluate(() =>
+    performance.getEntriesByType("resource").map(({ name, startTime, responseEnd, encodedBodySize }) => ({
+      name: name.replace(/.*\//, ""),
+      from: Math.round(startTime),
+      to: Math.round(responseEnd),
+      bytes: encodedBodySize,
+    })),
+  );
   await context.close();
-  return { loaded, took, began };
+  return { took, bytes: until, marks };
 }
 
 const examples = (page) => page.locator(".card").first().waitFor();
-const moving = (page) =>
+const moves = (page) =>
   page.waitForFunction(() => parseFloat(document.querySelector(".clock")?.textContent) > 0);
-const runs = [];
-for (let run = 0; run < RUNS; run++) runs.push(await cold("", examples));
-let [brotli, gzip] = [0, 0];
-for (const path of runs[0].loaded) {
-  // The service worker fetches the rest of the page for later, when this is done.
-  if (path === "/sw.js" || path.endsWith(".svg")) continue;
-  const content = readFileSync(join(DIST, path === "/" ? "index.html" : path));
-  brotli += brotliCompressSync(content).length;
-  gzip += gzipSync(content).length;
-}
-console.log(
-  `first visit, pictures left out: ${(brotli / 1e6).toFixed(2)} MB by Brotli, ${(gzip / 1e6).toFixed(2)} MB by gzip`,
-);
-console.log(
-  `examples are there after ${median(runs.map(({ took }) => took)).toFixed(0)} ms (median of ${RUNS})`,
-);
-const played = [];
-for (let run = 0; run < RUNS; run++) {
-  played.push(
-    await cold("?example=race", async (page) => {
+
+const visits = {
+  "examples can be chosen": ["", examples],
+  "Race moves": [
+    "?example=race",
+    async (page) => {
       await page.locator(".play:enabled").click();
-      await moving(page);
-    }),
-  );
+      await moves(page);
+    },
+  ],
+};
+
+for (const coding of ["br", "gzip"]) {
+  await start({ coding });
+  for (const [what, [address, ready]] of Object.entries(visits)) {
+    const runs = [];
+    for (let run = 0; run < RUNS; run++) runs.push(await cold(address, ready));
+    const size = (median(runs.map(({ bytes }) => bytes)) / 1e6).toFixed(2);
+    const took = median(runs.map(({ took }) => took)).toFixed(0);
+    console.log(`${coding}: ${what} after ${size} MB and ${took} ms (medians of ${RUNS})`);
+    if (process.argv.includes("--files")) console.table(runs[0].marks);
+  }
+  await stop();
 }
-console.log(`Race moves after ${median(played.map(({ took }) => took)).toFixed(0)} ms (median of ${RUNS})`);
-await browser.close();
-await site.close();

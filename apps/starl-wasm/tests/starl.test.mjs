@@ -158,6 +158,38 @@ test("a run can be steered", async () => {
   assert.throws(() => simulation.apply({ leave: [1] }, { at: Number.NaN }), StarlError);
 });
 
+test("values of shared variables are reported once, by the hash in records, and change nothing", async () => {
+  const starl = await load(module);
+  const [simulation, alone] = [1, 2].map(() => starl.open({}, { scenario: "memory" }));
+  for (const until of [1, 2, 3]) alone.run({ until });
+  const values = [1, 2, 3].flatMap((until) => {
+    simulation.run({ until });
+    return simulation.values();
+  });
+  const written = (variable) =>
+    simulation.records().records.flatMap(({ message: { primitive, name, fields } }) => {
+      if (primitive !== "shared_memory" || name !== "write") return [];
+      const of = (name) => fields.find((field) => field.name === name);
+      return of("variable").text === variable ? [of("value").int] : [];
+    });
+  const records = written("board");
+  const boards = records.map((hash) => values.filter((value) => value[0] === "board" && value[1] === hash));
+  assert.ok(boards.every((found) => found.length === 1));
+  assert.deepEqual([...new Set(boards.map(([[, , text]]) => text))].slice(0, 3), ["1", "2", "3"]);
+  assert.ok(values.some(([variable, , text]) => variable === "result" && text.includes("number")));
+  assert.deepEqual(simulation.values(), []);
+  assert.equal(simulation.report().digest, alone.report().digest);
+});
+
+test("the report has the network as it is now", async () => {
+  const simulation = (await load(module)).open({}, { scenario: "race" });
+  const knob = (name) => simulation.report().network.find((knob) => name in knob)?.[name];
+  assert.deepEqual([knob("delay"), knob("loss"), knob("range")], [15e6, 0, null]);
+  simulation.apply({ network: [{ loss: 0.25 }, { range: 3 }] });
+  simulation.step();
+  assert.deepEqual([knob("delay"), knob("loss"), knob("range")], [15e6, 0.25, 3]);
+});
+
 test("a run stops at breakpoints", async () => {
   const simulation = (await load(module)).open({}, { scenario: "race", set: ["program=race.starl"] });
   simulation.breakpoints([{ action: { name: "pick", robot: 1 } }, { when: { expression: "currentIndex >= 1" } }]);

@@ -40,7 +40,9 @@ export function Tabs({ tabs, chosen, label }: { tabs: Tab[]; chosen: Signal<stri
             tabIndex={tab === shown ? 0 : -1}
             onClick={() => choose(tab.name)}
           >
-            {tab.label}
+            <span class="label" data-label={tab.label}>
+              {tab.label}
+            </span>
             {tab.count ? <span class="count">{tab.count}</span> : null}
           </button>
         ))}

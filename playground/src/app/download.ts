@@ -9,3 +9,7 @@ export function download(name: string, type: string, content: string | Blob): vo
   // Chrome reads the file after the click.
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
+
+/** A name for a file that every system takes. */
+export const fileName = (name: string): string =>
+  name.replace(/[^\p{L}\p{N}_-]+/gu, "-").replace(/^-+|-+$/g, "") || "starl";

@@ -1,5 +1,6 @@
 // The page's end of the worker: requests with answers, and updates as they come.
 
+import { simulator } from "./simulator.ts";
 import type { Diagnostic, FromWorker, Request, ToWorker, Update } from "./types.ts";
 
 /** An error of the simulator, with its single problems if there are any. */
@@ -54,12 +55,13 @@ export class Client {
 
   #start(): Worker {
     const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
-    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#hear(data);
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) =>
+      "needs" in data ? give(worker) : this.#hear(data);
     worker.onerror = (event) => this.onFailure(event.message || "the simulator could not be loaded");
     return worker;
   }
 
-  #hear(message: FromWorker): void {
+  #hear(message: Exclude<FromWorker, { needs: unknown }>): void {
     if ("update" in message) return this.onUpdate(message.update);
     if ("failed" in message) return this.onFailure(message.failed);
     const waiting = this.#waiting.get(message.id);
@@ -67,5 +69,14 @@ export class Client {
     if (!waiting) return;
     if ("error" in message) waiting.reject(new EngineError(message.error.message, message.error.diagnostics));
     else waiting.resolve(message.ok);
+  }
+}
+
+async function give(worker: Worker): Promise<void> {
+  const say = (message: ToWorker) => worker.postMessage(message);
+  try {
+    say({ module: await simulator() });
+  } catch (error) {
+    say({ noModule: error instanceof Error ? error.message : String(error) });
   }
 }

@@ -280,6 +280,10 @@ export class Driver {
       [fleet, this.#members] = changed(fleet, this.#members);
       [world, this.#places] = changed(world, this.#places);
     }
+    // Records of primitives name the values of shared variables by hashes.
+    const values = this.#pending.records.some(({ topic }) => topic === "/starl/primitive")
+      ? await this.engine.values()
+      : [];
     const { frames, records, cut } = this.#pending;
     this.#pending = { frames: [], records: [], cut: null };
     const joined = frames.length > 0 ? join(frames) : null;
@@ -294,6 +298,7 @@ export class Driver {
       frame,
       frames: joined,
       records,
+      values,
       cut,
       states,
       fleet,

@@ -21,6 +21,7 @@ export type Engine = Asynchronous<
     | "poses"
     | "records"
     | "states"
+    | "values"
     | "world"
     | "fleet"
     | "robot"

@@ -2,7 +2,7 @@
 // end is missing is read as far as it goes.
 
 import { McapIndexedReader, McapStreamReader, type McapTypes } from "@mcap/core";
-import { Refused } from "./remote.ts";
+import { Refused } from "./refused.ts";
 
 /** Bytes that are fetched at once. */
 const PART = 1 << 20;

@@ -1,8 +1,10 @@
-// From where workers of the embedded page load the WebAssembly module: their name is a data address of its bytes, packed
-// with gzip; see build/embedded.ts.
+// Where the embedded page has the WebAssembly module: in an element of its file, packed with gzip and in base 64; see
+// build/embedded.ts.
 
-export async function moduleSource(): Promise<ArrayBuffer> {
-  if (!self.name) throw new Error("this page shows a recorded run and cannot simulate it");
-  const { body } = await fetch(self.name);
-  return new Response(body?.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+import { held } from "../held.ts";
+
+export async function moduleResponse(): Promise<Response> {
+  const content = await held("starl-module");
+  if (content.size === 0) throw new Error("this page shows a recorded run and cannot simulate it");
+  return new Response(content, { headers: { "content-type": "application/wasm" } });
 }

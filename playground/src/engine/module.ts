@@ -1,5 +1,5 @@
-// From where workers load the WebAssembly module. The embedded page has module.embedded.ts instead of this.
+// Where the page loads the WebAssembly module from. The embedded page has module.embedded.ts instead of this.
 
 import wasm from "../../wasm/starl.wasm?url";
 
-export const moduleSource = async () => new URL(wasm, self.location.href);
+export const moduleResponse = (): Promise<Response> => fetch(wasm);

@@ -8,7 +8,7 @@ import { firstWhere } from "../run/search.ts";
 import { RECORDED } from "./engine.ts";
 import { arriving, LocalFile, lastTime, type Readable, records, ServedFile } from "./mcap.ts";
 import { type RecordedWorld, readWorld } from "./recorded-world.ts";
-import { Refused } from "./remote.ts";
+import { MOST_ROBOTS, Refused, refuseTooMany } from "./refused.ts";
 import {
   type Intervention,
   type Member,
@@ -38,16 +38,6 @@ interface Summary {
   outcome: Outcome;
   digest: string;
   end_ns: number;
-}
-
-/** The page draws and lists each robot; more than this would freeze it. */
-const MOST_ROBOTS = 10_000;
-
-export function refuseTooMany(robots: number): void {
-  if (robots <= MOST_ROBOTS) return;
-  throw new Refused(
-    `There are ${robots} robots. The page shows at most ${MOST_ROBOTS}; run more with the command \`starl run\`.`,
-  );
 }
 
 type Post = (update: Update, transfer: Transferable[]) => void;
@@ -344,6 +334,7 @@ export class Playback {
       frame: null,
       frames,
       records,
+      values: [],
       cut: null,
       states: this.#states.length > 0 ? this.#statesNow() : [],
       fleet: this.#hasJoined ? this.#fleet : null,
@@ -367,6 +358,7 @@ export class Playback {
       progress: { robots, up: robots, finished: 0, failed: 0 },
       messages: { ...this.#messages },
       collisions: this.#collisions,
+      network: [],
       properties: [],
       violations: this.#violations,
       failures: [],

@@ -1,19 +1,9 @@
 // The run that `starl run --open` holds: requests and answers over a WebSocket, see apps/starl/src/web/.
 
-import type { Diagnostic } from "../../../apps/starl-wasm/starl.d.mts";
 import type { Engine } from "./engine.ts";
+import { Refused } from "./refused.ts";
 
 type Waiting = { resolve: (value: never) => void; reject: (error: Error) => void };
-
-/** An error of the server. */
-export class Refused extends Error {
-  constructor(
-    message: string,
-    readonly diagnostics: Diagnostic[] = [],
-  ) {
-    super(message);
-  }
-}
 
 export class Socket {
   #socket: WebSocket;
@@ -86,6 +76,7 @@ export function remote(socket: Socket, simulation: number): Engine {
     poses: () => socket.ask({ poses: simulation }),
     records: (max) => ask("records", { max }),
     states: () => ask("states"),
+    values: () => ask("values"),
     world: () => ask("world"),
     fleet: () => ask("fleet"),
     robot: (robot) => ask("robot", { robot }),

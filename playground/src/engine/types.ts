@@ -97,6 +97,8 @@ export interface Update {
   frames: Float64Array | null;
   /** New records in the order of their times, without poses and estimates. */
   records: starl.TraceRecord[];
+  /** New values of shared variables, by the hashes that records have for them. */
+  values: starl.SharedValue[];
   /** Everything later than this moment is no longer so, because the run was steered. Applies before what is new. */
   cut: number | null;
   /** Where programs are, by robot. */
@@ -133,11 +135,17 @@ export type Request =
   /** A request of the simulator that is passed on unchanged. */
   | { raw: unknown };
 
-export type ToWorker = { id: number; request: Request };
+export type ToWorker =
+  | { id: number; request: Request }
+  /** The answer to `needs`. */
+  | { module: WebAssembly.Module }
+  | { noModule: string };
 
 export type FromWorker =
   | { id: number; ok: unknown }
   | { id: number; error: { message: string; diagnostics: starl.Diagnostic[] } }
   | { update: Update }
+  /** The worker simulates, and needs the module for that. */
+  | { needs: "module" }
   /** An error without a request; the run cannot continue. */
   | { failed: string };

@@ -3,17 +3,27 @@
 import { load, type Starl, StarlError } from "../../../apps/starl-wasm/starl.mjs";
 import { Driver } from "./driver.ts";
 import { RECORDED } from "./engine.ts";
-import { moduleSource } from "./module.ts";
-import { Playback, refuseTooMany } from "./playback.ts";
-import { Refused, remote, Socket } from "./remote.ts";
+import type { Playback } from "./playback.ts";
+import { Refused, refuseTooMany } from "./refused.ts";
+import { remote, Socket } from "./remote.ts";
 import type { FromWorker, Opened, Request, Source, ToWorker, Update } from "./types.ts";
 
-let module: Promise<Starl> | null = null;
+let instance: Promise<Starl> | null = null;
 
 /** The instance; another one if a run has brought the last one down. */
 async function starl(): Promise<Starl> {
-  if ((await module?.catch(() => null))?.failed !== false) module = moduleSource().then(load);
-  return module as Promise<Starl>;
+  if ((await instance?.catch(() => null))?.failed !== false) instance = askForModule().then(load);
+  return instance as Promise<Starl>;
+}
+
+let given: { resolve: (module: WebAssembly.Module) => void; reject: (error: Error) => void } | null = null;
+
+/** The page compiles the module, once for all workers. */
+function askForModule(): Promise<WebAssembly.Module> {
+  return new Promise((resolve, reject) => {
+    given = { resolve, reject };
+    say({ needs: "module" });
+  });
 }
 
 let shown: Driver | Playback | null = null;
@@ -21,7 +31,10 @@ let shown: Driver | Playback | null = null;
 const say = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
 const post = (update: Update, transfer: Transferable[]) => say({ update }, transfer);
 
-self.onmessage = async ({ data: { id, request } }: MessageEvent<ToWorker>) => {
+self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
+  if ("module" in data) return given?.resolve(data.module);
+  if ("noModule" in data) return given?.reject(new Error(data.noModule));
+  const { id, request } = data;
   try {
     say({ id, ok: await answer(request) });
     // The first picture, once the page knows what it shows.
@@ -75,7 +88,7 @@ async function open(source: Source): Promise<Opened> {
 }
 
 async function simulateAgain(): Promise<Driver> {
-  if (!(shown instanceof Playback)) throw new Refused("no trace is open");
+  if (!shown || shown instanceof Driver) throw new Refused("no trace is open");
   const { title } = shown.opened;
   const simulation = (await starl()).openRecorded(await shown.recorded(), { topics: RECORDED });
   return Driver.start(simulation, { ...simulation, title: `${title}, run again`, simulation: 0 }, post);
@@ -94,7 +107,10 @@ async function start(source: Exclude<Source, { kind: "again" }>): Promise<Driver
       return Driver.start(remote(socket, source.opened.simulation), source.opened, post);
     }
     case "trace":
-    case "fleet":
+    case "fleet": {
+      // Simulated runs do without the reader of traces.
+      const { Playback } = await import("./playback.ts");
       return Playback.start(source, post, (message) => say({ failed: message }));
+    }
   }
 }

@@ -11,7 +11,7 @@ export function OpenButton() {
     <>
       <button
         type="button"
-        title="A trace (.mcap), or programs and scenarios; you can also drop them on the page"
+        title="A trace (.mcap), programs and scenarios, or an archive of them (.zip); you can also drop them on the page"
         onClick={() => field.current?.click()}
       >
         Open a file

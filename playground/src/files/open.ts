@@ -1,5 +1,5 @@
-// Opens files of the person's machine: a trace is played as it is read, programs and scenarios become a project. Nothing
-// is uploaded.
+// Opens files of the person's machine: a trace is played as it is read, programs and scenarios become a project, of
+// which the first scenario is run. Nothing is uploaded.
 
 import { part } from "../app/App.tsx";
 import { benchTab } from "../app/Bench.tsx";
@@ -10,9 +10,10 @@ import { start } from "../project/project.ts";
 import { runProject, seed } from "../project/running.ts";
 
 /** For the dialog of the browser. */
-export const ACCEPTED = ".mcap,.starl,.toml,.wpt";
+export const ACCEPTED = ".mcap,.starl,.toml,.wpt,.zip";
 
 const isTrace = ({ name }: File): boolean => name.toLowerCase().endsWith(".mcap");
+const isArchive = ({ name }: File): boolean => name.toLowerCase().endsWith(".zip");
 
 /** Files that cannot be opened give a message and change nothing. */
 export async function openFiles(files: File[]): Promise<void> {
@@ -30,28 +31,46 @@ export async function openFiles(files: File[]): Promise<void> {
 
 async function openProject(files: File[]): Promise<void> {
   if (files.length === 0) return;
-  if (files.length > LIMITS.files) throw new EngineError(`These are more than ${LIMITS.files} files.`);
   const size = files.reduce((sum, file) => sum + file.size, 0);
   if (size > LIMITS.characters) throw new EngineError("These files are larger than 2 MB.");
-  const texts: Record<string, string> = {};
+  const contents: Record<string, Uint8Array> = {};
   for (const file of files) {
-    const problem = pathProblem(file.name);
-    if (problem) throw new EngineError(`${file.name}: ${problem}`);
-    texts[file.name] = await textOf(file);
+    const content = new Uint8Array(await file.arrayBuffer());
+    Object.assign(contents, isArchive(file) ? await unpacked(file.name, content) : { [file.name]: content });
+  }
+  const count = Object.keys(contents).length;
+  if (count > LIMITS.files) throw new EngineError(`These are ${count} files; open at most ${LIMITS.files}.`);
+  const texts: Record<string, string> = {};
+  for (const [path, content] of Object.entries(contents)) {
+    const problem = pathProblem(path);
+    if (problem) throw new EngineError(`${path}: ${problem}`);
+    texts[path] = textOf(path, content);
   }
   if (!Object.keys(texts).some((name) => /\.(starl|toml)$/.test(name)))
-    throw new EngineError("Open a trace (.mcap), a program (.starl) or a scenario (.toml).");
-  const [first = "project"] = Object.keys(texts).sort();
+    throw new EngineError(
+      "Open a trace (.mcap), a program (.starl), a scenario (.toml), or an archive of them (.zip).",
+    );
+  const archive = files.find(isArchive)?.name;
+  const [first = "project"] = archive ? [archive] : Object.keys(texts).sort();
   seed.value = "";
   start({ name: first.replace(/\.\w+$/, ""), files: texts, touched: true });
   benchTab.value = "program";
   await runProject({ play: false });
 }
 
-async function textOf(file: File): Promise<string> {
+async function unpacked(name: string, content: Uint8Array): Promise<Record<string, Uint8Array>> {
+  const { unzip } = await import("../share/zip.ts");
   try {
-    return new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer());
+    return unzip(content, LIMITS.characters);
+  } catch (error) {
+    throw new EngineError(`${name}: this archive cannot be opened: ${(error as Error).message}.`);
+  }
+}
+
+function textOf(path: string, content: Uint8Array): string {
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(content);
   } catch {
-    throw new EngineError(`${file.name}: this is not a text file.`);
+    throw new EngineError(`${path}: this is not a text file.`);
   }
 }

@@ -3,11 +3,11 @@
 import { useEffect } from "preact/hooks";
 import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
+import { lazy } from "../app/lazy.tsx";
 import { Projects } from "../project/Projects.tsx";
 import { recent } from "../project/project.ts";
 import { examples, loadExamples, openExample, titleOf } from "./examples.ts";
 import { grouped } from "./groups.ts";
-import { Tasks } from "./Tasks.tsx";
 import "../styles/gallery.css";
 
 const PICTURES: Record<string, string> = import.meta.glob("./pictures/*.svg", {
@@ -15,6 +15,8 @@ const PICTURES: Record<string, string> = import.meta.glob("./pictures/*.svg", {
   import: "default",
   eager: true,
 });
+
+const Tasks = lazy(async () => (await import("./Tasks.tsx")).Tasks);
 
 export function Gallery() {
   useEffect(() => {
@@ -49,7 +51,7 @@ export function Gallery() {
           </ul>
         </section>
       ))}
-      <Tasks />
+      {examples.value.length > 0 && <Tasks />}
     </div>
   );
 }

@@ -2,8 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import { run } from "../app/context.ts";
-import { download } from "../app/download.ts";
-import { fileName } from "../share/zip.ts";
+import { download, fileName } from "../app/download.ts";
 
 export function SaveTrace() {
   const making = useSignal(false);

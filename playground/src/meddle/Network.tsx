@@ -1,17 +1,17 @@
 // The network while it runs: loss, delay, jitter, range, and cuts.
 
 import { useSignal } from "@preact/signals";
+import { run } from "../app/context.ts";
 import type { NetworkKnob } from "../engine/types.ts";
 import { nameOf } from "../inspect/names.ts";
-import { knobs } from "./applied.ts";
 import { readGroups } from "./fields.ts";
 import { Text } from "./inputs.tsx";
-import { said, steer } from "./steering.ts";
+import { said, steer, steerAndShow } from "./steering.ts";
 import { byName, targets } from "./targets.ts";
 
 export function Network() {
   const groups = useSignal("");
-  const turned = knobs();
+  const now = new Map(run.report.value?.network.flatMap((knob) => Object.entries(knob)));
   const chosen = targets.value;
   const cut = () => {
     try {
@@ -26,32 +26,36 @@ export function Network() {
         label="Loss"
         unit="%"
         most={100}
-        now={percent(turned.get("loss"))}
+        now={percent(now.get("loss"))}
         make={(value) => ({ loss: value / 100 })}
       />
       <Knob
         label="Delay"
         unit="ms"
         most={500}
-        now={ms(turned.get("delay"))}
+        now={ms(now.get("delay"))}
         make={(value) => ({ delay: ns(value) })}
       />
       <Knob
         label="Jitter"
         unit="ms"
         most={500}
-        now={ms(turned.get("jitter"))}
+        now={ms(now.get("jitter"))}
         make={(value) => ({ jitter: ns(value) })}
       />
       <Knob
         label="Range"
         unit="m"
         most={50}
-        now={turned.has("range") ? (turned.get("range") as number | null) : undefined}
+        now={now.get("range") ?? null}
         make={(value) => ({ range: value })}
       />
       <div class="acts">
-        <button type="button" onClick={() => steer({ network: [{ range: null }] })}>
+        <button
+          type="button"
+          disabled={now.get("range") === null}
+          onClick={() => steerAndShow({ network: [{ range: null }] })}
+        >
           Unlimited range
         </button>
         <button
@@ -80,8 +84,8 @@ interface KnobProps {
   label: string;
   unit: string;
   most: number;
-  /** The applied value; undefined if it is as in the scenario, null if unlimited. */
-  now: number | null | undefined;
+  /** The value now; null if unlimited. */
+  now: number | null;
   make: (value: number) => NetworkKnob;
 }
 
@@ -89,14 +93,14 @@ interface KnobProps {
 function Knob({ label, unit, most, now, make }: KnobProps) {
   // The input that is not applied yet: a run that plays draws the fields again all the time.
   const drawn = useSignal<string | null>(null);
-  const shown = drawn.value ?? now ?? null;
+  const shown = drawn.value ?? now;
   const draw = (event: InputEvent & { currentTarget: HTMLInputElement }) => {
     drawn.value = event.currentTarget.value;
   };
   const apply = (text: string) => {
     const value = Number(text);
     drawn.value = null;
-    if (text !== "" && Number.isFinite(value)) void steer({ network: [make(value)] });
+    if (text !== "" && Number.isFinite(value)) void steerAndShow({ network: [make(value)] });
   };
   return (
     <div class="knob">
@@ -106,7 +110,7 @@ function Knob({ label, unit, most, now, make }: KnobProps) {
         min={0}
         max={most}
         step={most / 100}
-        value={shown ?? 0}
+        value={shown ?? most}
         aria-label={`${label}, ${unit}`}
         onInput={draw}
         onChange={(event) => apply(event.currentTarget.value)}
@@ -116,19 +120,17 @@ function Knob({ label, unit, most, now, make }: KnobProps) {
         min={0}
         step="any"
         value={shown ?? ""}
+        placeholder="unlimited"
+        onClick={(event) => drawn.value === null && event.currentTarget.select()}
         aria-label={`${label} as a number, ${unit}`}
         onInput={draw}
         onChange={(event) => apply(event.currentTarget.value)}
       />
       <span class="unit">{unit}</span>
-      <span class="muted now">
-        {now === undefined ? "as in the scenario" : now === null ? "unlimited" : `applied: ${now}`}
-      </span>
     </div>
   );
 }
 
 const ns = (ms: number) => Math.round(ms * 1e6);
-const ms = (ns: unknown) => (typeof ns === "number" ? ns / 1e6 : undefined);
-const percent = (share: unknown) =>
-  typeof share === "number" ? Number((share * 100).toFixed(3)) : undefined;
+const ms = (ns: unknown) => (typeof ns === "number" ? ns / 1e6 : null);
+const percent = (share: unknown) => (typeof share === "number" ? Number((share * 100).toFixed(3)) : null);

@@ -81,7 +81,7 @@ function Save() {
           title="The scenario with the programs that it names, ready for the command"
           onClick={() =>
             saveAs((scenario) => {
-              const files = new Blob([zip({ ...programs, [`${name}.toml`]: scenario })]);
+              const files = new Blob([zip({ [`${name}.toml`]: scenario, ...programs })]);
               download(`${name}.zip`, "application/zip", files);
             })
           }

@@ -164,10 +164,11 @@ function choose(found: Mark | Arrow | null): void {
 }
 
 /** Chooses the event before or after the chosen one, at the robots that are chosen, or at all. */
-function walk(step: 1 | -1): void {
+export function walk(step: 1 | -1): void {
   const { list } = run.events;
   const robots = run.selected.value.length > 0 ? new Set(run.selected.value) : null;
-  const start = chosen.value ? run.events.before(chosen.value.index) : run.events.from(run.now.value) - step;
+  const now = run.events.from(run.now.value);
+  const start = chosen.value ? run.events.before(chosen.value.index) : step === 1 ? now - 1 : now;
   for (let index = start + step; index >= 0 && index < list.length; index += step) {
     const event = list[index];
     if (!event || event.topic === "/starl/mark") continue;

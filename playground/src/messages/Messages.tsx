@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { run } from "../app/context.ts";
 import { Details } from "./Details.tsx";
-import { Diagram } from "./Diagram.tsx";
+import { Diagram, walk } from "./Diagram.tsx";
 import { marked, markedPast } from "./known.ts";
 import { follow, zoom } from "./view.ts";
 import "../styles/messages.css";
@@ -43,6 +43,24 @@ export function Messages() {
             onClick={() => zoom(1.6)}
           >
             -
+          </button>
+        </span>
+        <span class="group">
+          <button
+            type="button"
+            class="small"
+            title="The event or message before (up arrow)"
+            onClick={() => walk(-1)}
+          >
+            Before
+          </button>
+          <button
+            type="button"
+            class="small"
+            title="The event or message after (down arrow)"
+            onClick={() => walk(1)}
+          >
+            After
           </button>
         </span>
         <button

@@ -57,7 +57,8 @@ export function Plots() {
           run.fleet.value.length > drawnRobots().length &&
           `The first ${drawnRobots().length} robots are drawn; choose others under Robots. `}
         {kind.value === "shared" &&
-          "Records hold a hash of each value, not the value: values are numbered as they first appear. Robots with the same number hold the same value."}
+          shown?.names?.some((name) => /^value \d+$/.test(name)) &&
+          "Values that are not known are numbered as they first appear: robots with the same number hold the same value."}
       </p>
       <div class="tools">
         <Save label="SVG" chart={shown} problem={problem} />

@@ -6,11 +6,14 @@ import type uPlot from "uplot";
 import { run } from "../app/context.ts";
 import { theme } from "../app/theme.ts";
 import type { Chart } from "./chart.ts";
-import { thin } from "./chart.ts";
+import { marksOf, thin } from "./chart.ts";
 import "uplot/dist/uPlot.min.css";
 
 const MOST_POINTS = 4000;
 const HEIGHT = 300;
+const MOST_NAMES = 14;
+/** The width of a letter, px. */
+const LETTER = 6.6;
 /** A pointer that moves less than this clicks, px. */
 const STILL = 3;
 
@@ -27,6 +30,7 @@ export function TimePlot({ chart }: { chart: Chart }) {
         theme.peek(),
         chart.title,
         chart.yLabel,
+        chart.names,
         chart.lines.map(({ name, color }) => [name, color]),
       ]);
       const data = dataOf(Plot, chart);
@@ -81,17 +85,29 @@ function dataOf(Plot: typeof uPlot, { lines }: Chart): uPlot.AlignedData {
   return Plot.join(thinned.map(({ x, y }) => [x, y] as uPlot.AlignedData));
 }
 
-function optionsOf(Plot: typeof uPlot, { lines, yLabel }: Chart, element: HTMLElement): uPlot.Options {
+function optionsOf(Plot: typeof uPlot, chart: Chart, element: HTMLElement): uPlot.Options {
+  const { lines, yLabel, names } = chart;
   const style = getComputedStyle(element);
   const [text, grid] = [style.getPropertyValue("--muted"), style.getPropertyValue("--grid")];
   const axis = { stroke: text, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 } };
+  const namedMarks = names ? marksOf(chart, { low: 0, high: 1 }, MOST_NAMES) : [];
+  const shown = (value: number) => names?.[value] ?? String(Number(value.toFixed(3)));
   return {
     width: element.clientWidth,
     height: HEIGHT,
     scales: { x: { time: false } },
     axes: [
       { ...axis, label: "time, s", labelSize: 20, size: 36 },
-      { ...axis, label: yLabel, labelSize: 20, size: 48 },
+      names
+        ? {
+            ...axis,
+            label: yLabel,
+            labelSize: 20,
+            size: 30 + LETTER * Math.max(...namedMarks.map(([, text]) => text.length)),
+            splits: namedMarks.map(([place]) => place),
+            values: namedMarks.map(([, text]) => text),
+          }
+        : { ...axis, label: yLabel, labelSize: 20, size: 48 },
     ],
     series: [
       { label: "time, s" },
@@ -102,7 +118,7 @@ function optionsOf(Plot: typeof uPlot, { lines, yLabel }: Chart, element: HTMLEl
         dash: kept ? [4, 3] : [],
         spanGaps: true,
         points: { show: false },
-        value: (_: uPlot, value: number | null) => (value === null ? "-" : String(Number(value.toFixed(3)))),
+        value: (_: uPlot, value: number | null) => (value === null ? "-" : shown(value)),
         ...(steps ? { paths: Plot.paths.stepped?.({ align: 1 }) } : {}),
       })),
     ],

@@ -16,14 +16,18 @@ export interface Chart {
   xLabel: string;
   yLabel: string;
   lines: Line[];
+  /** The values of y are places in this list, from 0. */
+  names?: string[] | undefined;
   /** Both axes have the same scale. */
   square: boolean;
 }
 
 /** The table of a chart, as RFC 4180 has it. */
-export function csvOf({ lines, xLabel, yLabel }: Chart): string {
+export function csvOf({ lines, xLabel, yLabel, names }: Chart): string {
+  const shown = (y: number | undefined) =>
+    y === undefined || !Number.isFinite(y) ? "" : names ? quoted(names[y] ?? "") : y;
   const rows = lines.flatMap(({ name, x, y }) =>
-    x.map((value, index) => [quoted(name), value, Number.isFinite(y[index]) ? y[index] : ""].join(",")),
+    x.map((value, index) => [quoted(name), value, shown(y[index])].join(",")),
   );
   return [["series", quoted(xLabel), quoted(yLabel)].join(","), ...rows, ""].join("\r\n");
 }
@@ -31,6 +35,22 @@ export function csvOf({ lines, xLabel, yLabel }: Chart): string {
 /** A cell of a table. */
 export const quoted = (text: string): string =>
   /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+
+/** Marks of the y axis, at most about so many, with their texts. */
+export function marksOf({ names }: Chart, range: Range, about: number): [number, string][] {
+  if (!names) return ticksOf(range, about).map((tick) => [tick, String(tick)]);
+  const step = Math.ceil(names.length / about);
+  const marks = briefly(names).map((name, place): [number, string] => [place, name]);
+  return marks.filter(([place]) => place % step === 0);
+}
+
+/** Texts that fit beside an axis: their starts, or their ends if the starts are alike, as those of records. */
+function briefly(names: string[]): string[] {
+  const cut = (text: string, part: (text: string) => string) => (text.length > 16 ? part(text) : text);
+  const starts = names.map((name) => cut(name, (text) => `${text.slice(0, 15)}…`));
+  if (new Set(starts).size === names.length) return starts;
+  return names.map((name) => cut(name, (text) => `…${text.slice(-15)}`));
+}
 
 /** Lines with at most so many points: every so manyth of them, and the last. */
 export function thin(line: Line, most: number): Line {

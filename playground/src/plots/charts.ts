@@ -6,7 +6,7 @@ import { run } from "../app/context.ts";
 import { nameOf } from "../inspect/names.ts";
 import type { Chart, Line } from "./chart.ts";
 import { Rates } from "./rates.ts";
-import { SharedVariables, type Step } from "./shared.ts";
+import { SharedVariables, type Step, scaleOf } from "./shared.ts";
 import { type Quantity, Tracks } from "./tracks.ts";
 
 export type Kind = Quantity | "path" | "messages" | "shared";
@@ -34,7 +34,7 @@ let tracks: Tracks | null = null;
 export function keepRun(): void {
   const { sent, delivered, lost } = rates.update(run.events);
   const shared = new Map(
-    [...sharedVariables.update(run.events).steps].map(([name, steps]) => [name, [...steps]]),
+    [...sharedVariables.update(run.events, run.values).steps].map(([name, steps]) => [name, [...steps]]),
   );
   const opened = run.opened.value;
   const number = (keptRuns.value.at(-1)?.number ?? 0) + 1;
@@ -58,7 +58,8 @@ export function drawnRobots(): number[] {
 }
 
 /** The names of the shared variables that are known. */
-export const sharedNames = (): string[] => [...sharedVariables.update(run.events).steps.keys()].sort();
+export const sharedNames = (): string[] =>
+  [...sharedVariables.update(run.events, run.values).steps.keys()].sort();
 
 export function chartOf(kind: Kind, variable: string): Chart {
   const robots = drawnRobots();
@@ -138,27 +139,30 @@ function messagesChart(): Chart {
 
 function sharedChart(variable: string, robots: number[]): Chart {
   const of = run.fleet.value.length;
-  const lines = (steps: Step[], kept: number | null): Line[] =>
-    robots.map((robot) => {
+  const known = [
+    ...keptRuns.value.map(({ shared, number }) => ({ steps: shared.get(variable) ?? [], number })),
+    { steps: sharedVariables.update(run.events, run.values).steps.get(variable) ?? [], number: null },
+  ];
+  const scale = scaleOf(known.flatMap(({ steps }) => steps.map(({ value }) => value)));
+  const lines = known.flatMap(({ steps, number }) =>
+    robots.map((robot): Line => {
       const own = steps.filter((step) => step.robot === robot);
-      const name = kept === null ? nameOf(robot) : `${nameOf(robot)} (${kept})`;
       return {
-        name,
+        name: number === null ? nameOf(robot) : `${nameOf(robot)} (${number})`,
         color: colorOf(robot, of),
-        kept: kept !== null,
+        kept: number !== null,
         steps: true,
         x: own.map(({ time }) => time),
-        y: own.map(({ value }) => value),
+        y: own.map(({ value }) => scale.at(value)),
       };
-    });
+    }),
+  );
   return {
     title: `Shared variable ${variable}`,
     xLabel: "time, s",
-    yLabel: "which value, by first appearance",
+    yLabel: variable,
     square: false,
-    lines: [
-      ...keptRuns.value.flatMap((kept) => lines(kept.shared.get(variable) ?? [], kept.number)),
-      ...lines(sharedVariables.update(run.events).steps.get(variable) ?? [], null),
-    ].filter((line) => line.x.length > 0),
+    names: scale.names,
+    lines: lines.filter((line) => line.x.length > 0),
   };
 }

@@ -1,6 +1,6 @@
 // A chart as an SVG file. It is self-contained, so it can be put into a paper or a page.
 
-import { type Chart, type Line, type Range, rangeOf, thin, ticksOf } from "./chart.ts";
+import { type Chart, type Line, marksOf, type Range, rangeOf, thin, ticksOf } from "./chart.ts";
 
 export interface Look {
   width: number;
@@ -35,7 +35,10 @@ export function svgOf(chart: Chart, look: Look): string {
   const legend = Math.ceil(entries.length / perRow) * LEGEND_ROW;
   // A long legend makes the picture higher, not the chart smaller.
   const height = look.height + Math.max(0, legend - ROWS_WITHIN * LEGEND_ROW);
-  const box = { left: LEFT, right: width - RIGHT, top: TOP, bottom: height - BOTTOM - legend };
+  const marks = marksOf(chart, rangeOf(chart.lines.map((line) => line.y)), chart.names ? 16 : 6);
+  const widest = Math.max(0, ...marks.map(([, text]) => text.length));
+  const left = Math.max(LEFT, 34 + LETTER * widest);
+  const box = { left, right: width - RIGHT, top: TOP, bottom: height - BOTTOM - legend };
   const [x, y] = scales(chart, box);
   const parts = [
     `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="12" fill="${look.text}">`,
@@ -46,10 +49,10 @@ export function svgOf(chart: Chart, look: Look): string {
         `<path d="M${fixed(x.at(tick))} ${box.top}V${box.bottom}" stroke="${look.grid}"/>` +
         `<text x="${fixed(x.at(tick))}" y="${box.bottom + 15}" text-anchor="middle">${tick}</text>`,
     ),
-    ...ticksOf(y.range, 6).map(
-      (tick) =>
-        `<path d="M${box.left} ${fixed(y.at(tick))}H${box.right}" stroke="${look.grid}"/>` +
-        `<text x="${box.left - 6}" y="${fixed(y.at(tick) + 4)}" text-anchor="end">${tick}</text>`,
+    ...marks.map(
+      ([place, text]) =>
+        `<path d="M${box.left} ${fixed(y.at(place))}H${box.right}" stroke="${look.grid}"/>` +
+        `<text x="${box.left - 6}" y="${fixed(y.at(place) + 4)}" text-anchor="end">${escaped(text)}</text>`,
     ),
     `<text x="${(box.left + box.right) / 2}" y="${box.bottom + 33}" text-anchor="middle">${escaped(chart.xLabel)}</text>`,
     `<text transform="translate(14 ${(box.top + box.bottom) / 2}) rotate(-90)" text-anchor="middle">${escaped(chart.yLabel)}</text>`,

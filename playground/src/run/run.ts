@@ -46,6 +46,8 @@ export class Run {
   );
   readonly history = new History();
   readonly events = new Events();
+  /** The values of shared variables as texts, by variable and hash: see `valueKey`. */
+  readonly values = new Map<string, string>();
 
   /** Null while nothing is open. */
   readonly opened = signal<Opened | null>(null);
@@ -105,6 +107,7 @@ export class Run {
       batch(() => {
         this.history.clear();
         this.events.clear();
+        this.values.clear();
         this.source.value = source;
         this.opened.value = opened;
         this.fleet.value = opened.fleet;
@@ -267,6 +270,7 @@ export class Run {
       if (update.over) this.ended.value = update.known;
       if (update.frames) this.history.add(update.frames);
       this.events.add(update.records);
+      for (const [variable, hash, value] of update.values) this.values.set(valueKey(variable, hash), value);
       this.now.value = update.now;
       this.known.value = update.known;
       this.position.value = update.position;
@@ -292,6 +296,8 @@ export class Run {
     });
   }
 }
+
+export const valueKey = (variable: string, hash: unknown): string => `${hash} ${variable}`;
 
 /** A moment at which everything that happened at `time` has happened: states are those after a physics step. */
 const momentAfter = (time: number): number => time + 1e-9;

@@ -13,8 +13,17 @@ import { WorldMap } from "./map/Map.tsx";
 import { complaints } from "./problems.ts";
 import "../styles/scenario.css";
 
+const SIDES = [
+  ["form", "Form"],
+  ["both", "Both"],
+  ["text", "Text"],
+] as const;
+
+/** Both have too little room on a small screen. */
+const first = () => (matchMedia("(max-width: 900px)").matches ? "form" : "both");
+
 export function Scenario() {
-  const side = useSignal<"form" | "text">("form");
+  const side = useSignal<(typeof SIDES)[number][0]>(first());
   useEffect(() => {
     void loadSchema();
   }, []);
@@ -34,11 +43,11 @@ export function Scenario() {
             {refused.value}
           </p>
         )}
-        {side.value === "form" && <Form />}
+        {side.value !== "text" && <Form />}
       </div>
       <div class="row ways">
         <div class="group">
-          {(["form", "text"] as const).map((name) => (
+          {SIDES.map(([name, label]) => (
             <button
               key={name}
               type="button"
@@ -47,7 +56,7 @@ export function Scenario() {
                 side.value = name;
               }}
             >
-              {name === "form" ? "Form and text" : "Text only"}
+              {label}
             </button>
           ))}
         </div>

@@ -6,16 +6,17 @@ import { benchTab } from "../app/Bench.tsx";
 import { Dialog } from "../project/Dialog.tsx";
 import { project, start } from "../project/project.ts";
 import { runProject, seed } from "../project/running.ts";
-import { BadLink, isLink, read, type Shared } from "./link.ts";
+import type { Shared } from "./link.ts";
 
 const incoming = signal<Shared | null>(null);
 const problem = signal<string | null>(null);
 
 /** Looks at the address of the page, and takes the link out of it. */
-function look(): void {
+async function look(): Promise<void> {
   const fragment = location.hash.slice(1);
-  if (!isLink(fragment)) return;
+  if (!fragment.startsWith("p=")) return;
   history.replaceState(null, "", location.pathname + location.search);
+  const { BadLink, read } = await import("./link.ts");
   try {
     incoming.value = read(fragment);
   } catch (error) {
@@ -25,7 +26,7 @@ function look(): void {
 
 export function Incoming() {
   useEffect(() => {
-    look();
+    void look();
     addEventListener("hashchange", look);
     return () => removeEventListener("hashchange", look);
   }, []);

@@ -23,8 +23,6 @@ export function write({ name, files, scenario, active, seed }: Shared): string {
   return `p=${VERSION}.${base64.encode(bytes)}`;
 }
 
-export const isLink = (fragment: string): boolean => fragment.startsWith("p=");
-
 /** The project of a fragment without its `#`. */
 export function read(fragment: string): Shared {
   const [, version, data] = /^p=(\d{1,4})\.(.*)$/s.exec(fragment) ?? [];

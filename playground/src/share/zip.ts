@@ -1,6 +1,6 @@
-// Files as one, and names for them.
+// Files as one, and an archive as files.
 
-import { strToU8, zipSync } from "fflate";
+import { strToU8, unzipSync, zipSync } from "fflate";
 
 export function zip(files: Record<string, string | Uint8Array>): Uint8Array<ArrayBuffer> {
   const contents = Object.entries(files).map(([path, content]): [string, Uint8Array] => [
@@ -10,6 +10,15 @@ export function zip(files: Record<string, string | Uint8Array>): Uint8Array<Arra
   return new Uint8Array(zipSync(Object.fromEntries(contents)));
 }
 
-/** A name for a file that every system takes. */
-export const fileName = (name: string): string =>
-  name.replace(/[^\p{L}\p{N}_-]+/gu, "-").replace(/^-+|-+$/g, "") || "starl";
+/** The files of an archive in their order. Throws if it is none, or if it unpacks to more than `most` bytes. */
+export function unzip(archive: Uint8Array, most: number): Record<string, Uint8Array> {
+  let size = 0;
+  return unzipSync(archive, {
+    // No file unpacks to more than it says here.
+    filter: ({ name, originalSize }) => {
+      size += originalSize;
+      if (size > most) throw new Error(`it unpacks to more than ${most / 1e6} MB`);
+      return !name.endsWith("/");
+    },
+  });
+}

@@ -5,6 +5,7 @@ import { part } from "../app/App.tsx";
 import { run } from "../app/context.ts";
 import { sideTab } from "../app/side-tab.ts";
 import { EngineError } from "../engine/client.ts";
+import { simulator } from "../engine/simulator.ts";
 import { showViolation } from "../inspect/violations.ts";
 import type { Shrunk, Target, Trial, Tried } from "./protocol.ts";
 import { problem } from "./sweep.ts";
@@ -64,17 +65,16 @@ export async function shrinkAndOpen(target: Target, tried: Tried): Promise<void>
 export const stopShrinking = (): void => worker?.end();
 
 async function withWorker(target: Target, work: (worker: TrialWorker) => Promise<void>): Promise<void> {
-  worker?.end();
-  const own = new TrialWorker(target);
-  worker = own;
   problem.value = null;
   try {
-    await work(own);
+    const module = await simulator();
+    worker?.end();
+    const own = new TrialWorker(target, module);
+    worker = own;
+    await work(own).finally(() => own.end());
   } catch (error) {
     if (!(error instanceof Ended))
       problem.value = error instanceof EngineError ? error : new EngineError(String(error));
-  } finally {
-    own.end();
   }
 }
 

@@ -18,6 +18,7 @@ export interface Trial {
 
 export type Ask = { try: Trial } | { shrink: Trial; most: number } | { scenario: Trial };
 
-export type ToWorker = { target: Target } | { ask: Ask };
+/** The target comes first. */
+export type ToWorker = { target: Target; module: WebAssembly.Module } | { ask: Ask };
 
 export type FromWorker = { ok: unknown } | { error: { message: string; diagnostics: starl.Diagnostic[] } };

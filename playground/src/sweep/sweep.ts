@@ -3,6 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import { run } from "../app/context.ts";
 import { EngineError } from "../engine/client.ts";
+import { simulator } from "../engine/simulator.ts";
 import { check } from "../project/checking.ts";
 import { errorsOf, optionsOf } from "../project/model.ts";
 import { project } from "../project/project.ts";
@@ -87,6 +88,7 @@ export async function start(): Promise<void> {
 }
 
 async function simulate(target: Target, names: string[], total: number): Promise<void> {
+  const module = await simulator();
   const results = new Results(names);
   sweep.value = { target, results, total };
   const first = Number(firstSeed.value);
@@ -107,7 +109,7 @@ async function simulate(target: Target, names: string[], total: number): Promise
     shown.value++;
   }, SHOW_EVERY);
   const count = Math.min(workerCount(navigator.hardwareConcurrency), total);
-  workers = Array.from({ length: count }, () => new TrialWorker(target));
+  workers = Array.from({ length: count }, () => new TrialWorker(target, module));
   try {
     await Promise.all(
       workers.map(async (worker) => {

@@ -10,7 +10,8 @@ export class TrialWorker {
   #worker: Worker;
   #waiting: { resolve: (value: unknown) => void; reject: (error: Error) => void } | null = null;
 
-  constructor(target: Target) {
+  /** The module is that of `simulator()`. */
+  constructor(target: Target, module: WebAssembly.Module) {
     this.#worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
     this.#worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
       const waiting = this.#waiting;
@@ -20,7 +21,7 @@ export class TrialWorker {
     };
     this.#worker.onerror = (event) =>
       this.#refuse(new EngineError(event.message || "the simulator could not be loaded"));
-    this.#worker.postMessage({ target });
+    this.#worker.postMessage({ target, module });
   }
 
   /** One thing at a time. */

@@ -1,22 +1,22 @@
 // A worker in which runs of a sweep are simulated.
 
 import { load, type Starl, StarlError } from "../../../apps/starl-wasm/starl.mjs";
-import { moduleSource } from "../engine/module.ts";
 import type { Ask, FromWorker, Target, ToWorker } from "./protocol.ts";
 
 let starl: Starl | null = null;
-let target: Target = { files: {}, options: {} };
+let module: WebAssembly.Module;
+let target: Target;
 
 const say = (message: FromWorker) => self.postMessage(message);
 
 self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   if ("target" in data) {
-    target = data.target;
+    ({ target, module } = data);
     return;
   }
   try {
     // A run that needs too much memory brings the instance down.
-    if (!starl || starl.failed) starl = await load(await moduleSource());
+    if (!starl || starl.failed) starl = await load(module);
     say({ ok: answer(starl, data.ask) });
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);

@@ -1,25 +1,37 @@
 // The world of the run, in 3-D or from above.
 
-import { useSignal } from "@preact/signals";
+import { effect, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { run } from "../app/context.ts";
 import "../styles/world.css";
+import { loadScreen } from "./load.ts";
 import { measured, pointed, tool } from "./pick.ts";
 import { Toolbar } from "./Toolbar.tsx";
-import { WorldScreen } from "./world.ts";
+import type { WorldScreen } from "./world.ts";
 
 export function WorldView() {
   const element = useRef<HTMLDivElement>(null);
   const screen = useRef<WorldScreen | null>(null);
   const onlyFlat = useSignal(false);
   useEffect(() => {
-    if (!element.current) return;
-    const made = new WorldScreen(element.current, (isFlat) => {
-      onlyFlat.value = isFlat;
+    let isGone = false;
+    const make = async () => {
+      const { WorldScreen } = await loadScreen();
+      if (isGone || !element.current) return;
+      screen.current = new WorldScreen(element.current, (isFlat) => {
+        onlyFlat.value = isFlat;
+      });
+    };
+    let isMade = false;
+    const stop = effect(() => {
+      if (isMade || !(run.opening.value || run.opened.value)) return;
+      isMade = true;
+      make().catch((error) => run.complain(error));
     });
-    screen.current = made;
     return () => {
-      made.dispose();
+      isGone = true;
+      stop();
+      screen.current?.dispose();
       screen.current = null;
     };
   }, [onlyFlat]);

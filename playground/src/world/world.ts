@@ -9,6 +9,7 @@ import { Flat } from "./flat.ts";
 import { Hand } from "./hand.ts";
 import { Happenings } from "./happenings.ts";
 import { flat, hidden } from "./layers.ts";
+import { loadStage } from "./load.ts";
 import { Overlay } from "./overlay/overlay.ts";
 import { readPalette, robotColors } from "./palette.ts";
 import { followed, hovered, measured, moving, pointed, tool } from "./pick.ts";
@@ -20,9 +21,6 @@ import { type Box, View } from "./view.ts";
 const LOOK_EVERY = 400;
 /** How long what has just happened stays visible, s of real time at normal speed. */
 const LINGER = 0.45;
-
-/** Loads the painter of 3-D pictures. */
-export const stage = () => import("./three/stage.ts");
 
 export class WorldScreen {
   readonly view = new View();
@@ -104,7 +102,7 @@ export class WorldScreen {
     if (this.#loading) return;
     this.#loading = true;
     try {
-      const { Stage } = await stage();
+      const { Stage } = await loadStage();
       if (this.#disposed) return;
       const canvas = this.#lower();
       canvas.addEventListener("webglcontextlost", (event) => {

@@ -1,25 +1,16 @@
 // Writing programs in the page: examples, errors as they are typed, files that are kept, links, and the scenario.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, tab, useBrowser, visit } from "./support.mjs";
 
-let browser;
-let site;
-before(async () => {
-  [browser, site] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
+useBrowser();
 
 const open = async (address = "", options = {}) => {
-  const visited = await visit(browser, site.url + address, options);
+  const visited = await visit(site.url + address, options);
   await visited.page.waitForSelector(".bench");
   return { ...visited, faults: () => visited.errors };
 };
-const tab = (page, name) => page.getByRole("tab", { name }).click();
 const editor = (page) => page.locator(".cm-content");
 const problems = (page) => page.locator(".problems li");
 

@@ -7,22 +7,21 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
-import { DIST, launch, visit } from "./support.mjs";
+import { DIST, useBrowser, visit } from "./support.mjs";
+
+useBrowser();
 
 const { STARL } = process.env;
 const skip = STARL ? false : "STARL names no command";
 const RUN = ["run", "race", "--seed", "7", "--set", "network.loss=0.1"];
 
-let browser;
 let folder;
 before(async () => {
-  browser = await launch();
   folder = mkdtempSync(join(tmpdir(), "starl-"));
 });
 const children = [];
 after(async () => {
   for (const child of children) child.kill();
-  await browser?.close();
   rmSync(folder, { recursive: true });
 });
 
@@ -59,7 +58,7 @@ test("a run of the command plays in the page with its digest, and a robot crashe
   skip,
 }, async () => {
   const address = await served(...RUN, "--open");
-  const { page, context, errors } = await visit(browser, address);
+  const { page, context, errors } = await visit(address);
   await playToTheEnd(page);
   assert.equal(await digest(page), report().digest);
   await page.getByLabel("To the start").click();
@@ -76,7 +75,7 @@ test("a trace is shown as far as it goes, and can be run again with the same dig
   const trace = join(folder, "race.mcap");
   const { digest: recorded } = report("--trace", trace);
   const address = await served("view", trace);
-  const { page, context, errors } = await visit(browser, address);
+  const { page, context, errors } = await visit(address);
   await playToTheEnd(page);
   assert.equal(await digest(page), recorded);
   await page.getByRole("tab", { name: "Robots" }).click();
@@ -95,7 +94,7 @@ test("a trace whose end is missing is shown up to there", { skip }, async () => 
   spawnSync(STARL, ["run", "search", "--quiet", "--trace", trace]);
   truncateSync(trace, Math.floor(statSync(trace).size * 0.6));
   const address = await served("view", trace);
-  const { page, context, errors } = await visit(browser, address);
+  const { page, context, errors } = await visit(address);
   await page.locator(".play:enabled").waitFor();
   await page.getByLabel("To the furthest known moment").click();
   await page.waitForFunction(() => parseFloat(document.querySelector(".clock").textContent) > 1);
@@ -123,7 +122,7 @@ test("a fleet that runs is followed as it happens", { skip }, async () => {
   writeFileSync(join(folder, "fleet.toml"), `scenario = "race.toml"\n[link]\nfirst_port = ${port}\n`);
   assert.equal(spawnSync(STARL, ["fleet", "key", "fleet.toml"], { cwd: folder }).status, 0);
   const address = await served("view", join(folder, "fleet.toml"));
-  const { page, context, errors } = await visit(browser, address);
+  const { page, context, errors } = await visit(address);
   // Before the fleet starts its robots stand where they will start.
   await page.locator(".play:enabled").waitFor();
   children.push(spawn(STARL, ["fleet", "up", "fleet.toml"], { cwd: folder }));

@@ -8,25 +8,24 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
-import { launch, visit } from "./support.mjs";
+import { useBrowser, visit } from "./support.mjs";
+
+useBrowser();
 
 const { STARL } = process.env;
 const skip = STARL ? false : "STARL names no command";
 const at = (path) => new URL(`../../${path}`, import.meta.url);
 const packed = (content) => gzipSync(content).toString("base64");
 
-let browser;
 let folder;
 let digest;
 before(async () => {
-  browser = await launch();
   folder = mkdtempSync(join(tmpdir(), "starl-"));
   if (!STARL) return;
   const command = ["run", "race", "--seed", "7", "--json", "--trace", join(folder, "race.mcap")];
   digest = JSON.parse(spawnSync(STARL, command, { encoding: "utf8" }).stdout).digest;
 });
 after(async () => {
-  await browser?.close();
   rmSync(folder, { recursive: true });
 });
 
@@ -47,7 +46,7 @@ async function open(content, { framed = false } = {}) {
   const escaped = content.replaceAll("&", "&amp;").replaceAll('"', "&quot;");
   const frame = `<!doctype html><meta charset="utf-8"><iframe srcdoc="${escaped}" width="1300" height="750"></iframe>`;
   writeFileSync(path, framed ? frame : content);
-  const visited = await visit(browser, pathToFileURL(path).href);
+  const visited = await visit(pathToFileURL(path).href);
   return { ...visited, shown: framed ? visited.page.frameLocator("iframe") : visited.page };
 }
 

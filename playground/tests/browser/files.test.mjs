@@ -2,19 +2,11 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, tab, useBrowser, visit } from "./support.mjs";
 
-let [browser, site] = [null, null];
-before(async () => {
-  [browser, site] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
+useBrowser();
 
-const tab = (page, name) => page.getByRole("tab", { name }).click();
 const title = (page, text) =>
   page.waitForFunction((text) => document.querySelector("h1")?.textContent === text, text);
 const file = (name, content) => ({
@@ -35,7 +27,7 @@ async function saved(page) {
 }
 
 test("a saved trace opens in the page without the command, by the button or dropped", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`, {
+  const { page, context, errors } = await visit(`${site.url}?example=race`, {
     acceptDownloads: true,
   });
   const trace = await saved(page);
@@ -65,7 +57,7 @@ test("a saved trace opens in the page without the command, by the button or drop
 });
 
 test("files that are no traces or programs give one message, and the run that is shown stays", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`, {
+  const { page, context, errors } = await visit(`${site.url}?example=race`, {
     acceptDownloads: true,
   });
   const trace = await saved(page);
@@ -104,7 +96,7 @@ test("files that are no traces or programs give one message, and the run that is
 });
 
 test("a program and a scenario become a project", async () => {
-  const { page, context, errors } = await visit(browser, site.url);
+  const { page, context, errors } = await visit(site.url);
   await page.locator(".card").first().waitFor();
   await page
     .getByLabel("Files to open")

@@ -2,26 +2,17 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, useBrowser, visit } from "./support.mjs";
+
+useBrowser();
 
 /** The world is drawn without a graphics card: a small one costs less time. */
 const VIEW = { viewport: { width: 1060, height: 620 } };
 
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await server?.close();
-});
-
 /** Opens an example; `until` plays it as fast as it goes until a selector is there. */
 async function example(name) {
-  const { page, errors, context } = await visit(browser, `${server.url}?example=${name}`, VIEW);
+  const { page, errors, context } = await visit(`${site.url}?example=${name}`, VIEW);
   page.setDefaultTimeout(20_000);
   await page.locator(".play:enabled").waitFor();
   const tab = (label) => page.getByRole("tab", { name: label }).click();

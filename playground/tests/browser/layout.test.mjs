@@ -1,23 +1,15 @@
 // Large and small screens: nothing is squeezed, cut off, or left out.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, useBrowser, visit } from "./support.mjs";
+
+useBrowser();
 
 const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
 
-let browser;
-let site;
-before(async () => {
-  [browser, site] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
-
 test("a small screen begins with the examples, and shows the world once there is a run", async () => {
-  const { page, context, errors } = await visit(browser, site.url, PHONE);
+  const { page, context, errors } = await visit(site.url, PHONE);
   await page.locator(".card", { has: page.getByText("Race", { exact: true }) }).tap();
   await page.getByRole("application").waitFor();
   await page.locator(".play", { hasText: "Pause" }).waitFor();
@@ -26,7 +18,7 @@ test("a small screen begins with the examples, and shows the world once there is
 });
 
 test("names of robots and of the project are whole, and the timeline names its lanes", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=search`);
+  const { page, context, errors } = await visit(`${site.url}?example=search`);
   await page.locator(".play:enabled").waitFor();
   const cut = (element) => element.scrollWidth > element.clientWidth + 1;
   assert.equal(await page.getByLabel("Name of the project").evaluate(cut), false, "name of the project");
@@ -39,7 +31,7 @@ test("names of robots and of the project are whole, and the timeline names its l
 });
 
 test("fields keep their room, whatever panels were shown before", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`);
+  const { page, context, errors } = await visit(`${site.url}?example=race`);
   await page.locator(".play:enabled").waitFor();
   // Each panel brings a style sheet of its own.
   for (const name of await page.getByRole("tab").allTextContents()) {

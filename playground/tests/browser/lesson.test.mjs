@@ -1,20 +1,13 @@
 // The first lesson with the page alone, as a newcomer does it: typed, not written by the page.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, useBrowser, visit } from "./support.mjs";
 
-let [browser, site] = [null, null];
-before(async () => {
-  [browser, site] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
+useBrowser();
 
 test("a newcomer finds the lesson, types an action and a property, and marks places on the map", async () => {
-  const { page, context, errors } = await visit(browser, site.url);
+  const { page, context, errors } = await visit(site.url);
   const strip = page.getByRole("region", { name: "Lesson" });
   const editor = page.locator(".cm-content").first();
   const isDone = () => strip.getByText("Done", { exact: true }).waitFor();
@@ -62,7 +55,7 @@ test("a newcomer finds the lesson, types an action and a property, and marks pla
 });
 
 test("what is written stays in view when problems appear below", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=search`);
+  const { page, context, errors } = await visit(`${site.url}?example=search`);
   const editor = page.locator(".cm-content").first();
   await page.locator(".play:enabled").waitFor();
   await editor.focus();

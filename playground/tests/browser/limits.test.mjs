@@ -1,8 +1,10 @@
 // Programs and worlds that would take all time or memory are stopped with a message, and the page stays usable.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, revisit, serve } from "./support.mjs";
+import { test } from "node:test";
+import { revisit, site, useBrowser } from "./support.mjs";
+
+useBrowser();
 
 const ROBOTS = `program = "hello.starl"
 duration = "20s"
@@ -24,18 +26,8 @@ const CASES = [
   ],
 ];
 
-let browser;
-let site;
-before(async () => {
-  [browser, site] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
-
 const open = (files) =>
-  revisit(browser, site.url, { name: "Hello", files, scenario: files["hello.toml"] ? "hello.toml" : null });
+  revisit(site.url, { name: "Hello", files, scenario: files["hello.toml"] ? "hello.toml" : null });
 const pressRun = (page) => page.getByRole("button", { name: "Run", exact: true }).click();
 
 for (const [what, text, message] of CASES) {

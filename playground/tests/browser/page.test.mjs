@@ -5,8 +5,10 @@ import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { DIST, launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { DIST, site, tab, useBrowser, visit } from "./support.mjs";
+
+useBrowser();
 
 const golden = JSON.parse(
   readFileSync(new URL("../../../apps/starl-wasm/golden.json", import.meta.url), "utf8"),
@@ -14,19 +16,6 @@ const golden = JSON.parse(
 /** The digest of Race with seed 1, as the command has it. */
 const RACE = golden.find(({ example, set }) => example === "race" && set[0] === "seed=1").digest;
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-
-let site;
-let browser;
-before(async () => {
-  site = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
-
-const tab = (page, name) => page.getByRole("tab", { name }).click();
 
 async function playToTheEnd(page) {
   await page.getByLabel("Speed of playback").selectOption("Infinity");
@@ -43,7 +32,7 @@ async function digest(page) {
 }
 
 test("Race runs from a cold page to its goal, with the digest of the command, and asks no other host", async () => {
-  const { page, context, errors } = await visit(browser, "about:blank");
+  const { page, context, errors } = await visit("about:blank");
   const asked = [];
   page.on("request", (request) => asked.push(request.url()));
   await page.goto(site.url);
@@ -62,7 +51,7 @@ test("Race runs from a cold page to its goal, with the digest of the command, an
 const MOST_BYTES = 6_100_000;
 
 test("a first visit is small: it loads neither the painter of runs nor the editor", async () => {
-  const { page, context } = await visit(browser, "about:blank");
+  const { page, context } = await visit("about:blank");
   const loaded = new Set();
   page.on("request", (request) => loaded.add(new URL(request.url()).pathname));
   await page.goto(site.url);
@@ -79,7 +68,7 @@ test("a first visit is small: it loads neither the painter of runs nor the edito
 });
 
 test("steps back and forth lead to the same digest", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`);
+  const { page, context, errors } = await visit(`${site.url}?example=race`);
   await page.locator(".play:enabled").waitFor();
   const text = () => page.locator(".clock").textContent();
   const moved = (from) =>
@@ -102,7 +91,7 @@ test("steps back and forth lead to the same digest", async () => {
 });
 
 test("once loaded the page works without a network", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`);
+  const { page, context, errors } = await visit(`${site.url}?example=race`);
   await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
   await page.waitForFunction(async () => (await caches.keys()).length > 0);
   await context.setOffline(true);
@@ -119,7 +108,7 @@ test("once loaded the page works without a network", async () => {
 for (const colorScheme of ["light", "dark"]) {
   test(`no part of the page breaks a rule of accessibility in ${colorScheme} colours`, async () => {
     // The check itself is a script that the page's policy would refuse.
-    const { page, context } = await visit(browser, `${site.url}?example=race`, {
+    const { page, context } = await visit(`${site.url}?example=race`, {
       colorScheme,
       bypassCSP: true,
     });

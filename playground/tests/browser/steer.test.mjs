@@ -7,22 +7,20 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 import { strFromU8, unzipSync } from "fflate";
-import { launch, serve, visit } from "./support.mjs";
+import { site, tab, useBrowser, visit } from "./support.mjs";
+
+useBrowser();
 
 const { STARL } = process.env;
 
-let [browser, site, folder] = [null, null, null];
+let folder;
 before(async () => {
-  [browser, site] = [await launch(), await serve()];
   folder = mkdtempSync(join(tmpdir(), "starl-"));
 });
 after(async () => {
-  await browser?.close();
-  await site?.close();
   rmSync(folder, { recursive: true });
 });
 
-const tab = (page, name) => page.getByRole("tab", { name }).click();
 const clock = async (page) => parseFloat(await page.locator(".clock").textContent());
 
 async function digest(page) {
@@ -50,7 +48,7 @@ async function drag(page, [fromX, fromY], [toX, toY]) {
 }
 
 test("a run is steered while it plays, and the saved scenario repeats it", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`, {
+  const { page, context, errors } = await visit(`${site.url}?example=race`, {
     acceptDownloads: true,
   });
   await page.locator(".play:enabled").waitFor();
@@ -58,15 +56,21 @@ test("a run is steered while it plays, and the saved scenario repeats it", async
   await page.locator(".play").click();
   await tab(page, "Steer");
   // While the run plays, the panel is drawn again all the time.
-  for (const [name, value] of [
-    ["Loss as a number, %", "30"],
-    ["Delay as a number, ms", "80"],
+  // Knobs stand where the scenario has them; a slider shows what holds in the run.
+  for (const [name, before, value] of [
+    ["Loss, %", "0", "30"],
+    ["Delay, ms", "15", "80"],
   ]) {
-    const field = page.getByLabel(name);
+    const [slider, field] = [page.getByLabel(name), page.getByLabel(name.replace(",", " as a number,"))];
+    assert.equal(await field.inputValue(), before);
+    assert.equal(await slider.inputValue(), before);
     await field.click();
     await page.keyboard.type(value, { delay: 120 });
     await page.keyboard.press("Enter");
-    await page.getByText(`applied: ${value}`).waitFor();
+    await page.waitForFunction(
+      ([slider, value]) => slider.value === value,
+      [await slider.elementHandle(), value],
+    );
   }
   const robots = page.getByRole("tabpanel", { name: "Steer" }).getByRole("combobox", { name: /^Robots/ });
   await robots.selectOption({ label: "iRobot1" });
@@ -99,9 +103,11 @@ test("a run is steered while it plays, and the saved scenario repeats it", async
 
   // The page repeats the saved scenario.
   await tab(page, "Examples");
-  await page
-    .getByLabel("Files to open")
-    .setInputFiles([join(folder, "race-steered.toml"), join(folder, "race.starl")]);
+  await page.getByLabel("Files to open").setInputFiles({
+    name: "race-steered (1).zip",
+    mimeType: "application/zip",
+    buffer: readFileSync(await download.path()),
+  });
   await page.getByLabel("Name of the project").waitFor();
   await page.waitForFunction(() => document.querySelector(".clock")?.textContent.startsWith("0.00 s"));
   await toTheEnd(page);
@@ -115,7 +121,7 @@ test("a run is steered while it plays, and the saved scenario repeats it", async
 });
 
 test("what is dragged in a run that stands still is seen at once, at a whole millimetre", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`);
+  const { page, context, errors } = await visit(`${site.url}?example=race`);
   await page.locator(".play:enabled").waitFor();
   await page.getByRole("button", { name: "From above" }).click();
   await page.getByRole("button", { name: "Move" }).click();

@@ -3,7 +3,9 @@
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
+import { after, before } from "node:test";
 import { fileURLToPath } from "node:url";
+import { brotliCompressSync, gzipSync } from "node:zlib";
 import { chromium } from "playwright-core";
 
 export const DIST = fileURLToPath(new URL("../../dist/", import.meta.url));
@@ -17,8 +19,17 @@ const TYPES = {
   ".json": "application/json",
 };
 
-/** Serves a folder on a free port of the loopback interface; `close` ends it. */
-export async function serve(folder = DIST) {
+/** Ways to send a file. */
+const CODINGS = { br: brotliCompressSync, gzip: (content) => gzipSync(content, { level: 9 }) };
+
+/** Serves a folder on a free port of the loopback interface; `close` ends it. `coding` compresses all files. */
+async function serve({ folder = DIST, coding = null } = {}) {
+  const sent = new Map();
+  const contentOf = (file) => {
+    if (!coding) return readFileSync(file);
+    if (!sent.has(file)) sent.set(file, CODINGS[coding](readFileSync(file)));
+    return sent.get(file);
+  };
   if (!existsSync(join(folder, "index.html")))
     throw new Error(`${folder} holds no page: run "make page" first`);
   const server = createServer((request, answer) => {
@@ -29,8 +40,11 @@ export async function serve(folder = DIST) {
       return;
     }
     answer
-      .writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" })
-      .end(readFileSync(file));
+      .writeHead(200, {
+        "content-type": TYPES[extname(file)] ?? "application/octet-stream",
+        ...(coding && { "content-encoding": coding }),
+      })
+      .end(contentOf(file));
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   const close = () => {
@@ -41,16 +55,39 @@ export async function serve(folder = DIST) {
 }
 
 /** A browser that draws without a graphics card. */
-export function launch() {
+function launch() {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
 }
 
-/** Opens a page and fails the test if the page reports an error. */
-export async function visit(browser, url, options = {}) {
+/** The page and the browser of the tests of a file, or of a script. */
+export let site;
+export let browser;
+
+export async function start(options = {}) {
+  [browser, site] = [await launch(), await serve(options)];
+}
+
+export async function stop() {
+  await browser?.close();
+  await site?.close();
+}
+
+/** Starts both before the tests of the file that calls this, and ends them after. */
+export function useBrowser() {
+  before(() => start());
+  after(stop);
+}
+
+/** Clicks a tab. */
+export const tab = (page, name) => page.getByRole("tab", { name }).click();
+
+/** Opens a page, in which `script` runs first, and collects the errors that it reports. */
+export async function visit(url, { script, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 850 }, ...options });
+  if (script) await context.addInitScript(script);
   const page = await context.newPage();
   const errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
@@ -60,8 +97,8 @@ export async function visit(browser, url, options = {}) {
 }
 
 /** Opens the page with a project that an earlier visit has left. */
-export async function revisit(browser, url, { name, files, scenario }, options = {}) {
-  const visited = await visit(browser, url, options);
+export async function revisit(url, { name, files, scenario }, options = {}) {
+  const visited = await visit(url, options);
   await visited.page.evaluate(
     ({ name, files, scenario }) => {
       const active = Object.keys(files)[0];

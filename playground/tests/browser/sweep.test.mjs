@@ -2,8 +2,10 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test } from "node:test";
-import { launch, revisit, serve } from "./support.mjs";
+import { test } from "node:test";
+import { revisit, site, useBrowser } from "./support.mjs";
+
+useBrowser();
 
 const TESTS = new URL("../../../apps/starl-wasm/tests/it/", import.meta.url);
 /** Robots that rely on hearing numbers in order, which the network does not promise. */
@@ -12,20 +14,10 @@ const FILES = {
   "worlds/ordered.toml": readFileSync(new URL("ordered.toml", TESTS), "utf8"),
 };
 
-let browser;
-let site;
-before(async () => {
-  [browser, site] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
-
 /** Opens the page with the project of an earlier visit, at its sweep. */
 async function open(files, scenario) {
   const project = { name: "Ordered", files, scenario };
-  const visited = await revisit(browser, site.url, project, { viewport: { width: 1060, height: 700 } });
+  const visited = await revisit(site.url, project, { viewport: { width: 1060, height: 700 } });
   const { page, errors } = visited;
   page.setDefaultTimeout(20_000);
   await page.getByRole("tab", { name: "Sweep" }).click();

@@ -1,19 +1,12 @@
 // Fingers on a small screen: the world and the space-time diagram move and zoom, and the page itself does not.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, useBrowser, visit } from "./support.mjs";
+
+useBrowser();
 
 const PHONE = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
-
-let [browser, site] = [null, null];
-before(async () => {
-  [browser, site] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await site?.close();
-});
 
 /** Moves fingers from places to others. */
 async function fingers(page, from, to) {
@@ -54,7 +47,7 @@ async function scale(page, act) {
 }
 
 test("two fingers zoom the world, and one moves it", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`, PHONE);
+  const { page, context, errors } = await visit(`${site.url}?example=race`, PHONE);
   await page.locator(".play:enabled").waitFor();
   await page.getByRole("button", { name: "From above" }).tap();
   await page.waitForTimeout(500);
@@ -80,7 +73,7 @@ test("two fingers zoom the world, and one moves it", async () => {
 });
 
 test("fingers scroll and zoom the space-time diagram", async () => {
-  const { page, context, errors } = await visit(browser, `${site.url}?example=race`, PHONE);
+  const { page, context, errors } = await visit(`${site.url}?example=race`, PHONE);
   await page.locator(".play:enabled").waitFor();
   await page.getByLabel("Speed of playback").selectOption("Infinity");
   await page.locator(".play").tap();

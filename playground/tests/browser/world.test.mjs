@@ -1,20 +1,13 @@
 // The world in a browser: it is painted, only when something changes, and answers to the mouse.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, serve, visit } from "./support.mjs";
+import { test } from "node:test";
+import { site, useBrowser, visit } from "./support.mjs";
 
-let [browser, server] = [null, null];
-before(async () => {
-  [browser, server] = [await launch(), await serve()];
-});
-after(async () => {
-  await browser?.close();
-  await server?.close();
-});
+useBrowser();
 
 test("the view of the world stands still when nothing happens, and measures with two clicks", async () => {
-  const { page, context, errors } = await visit(browser, `${server.url}?example=race`);
+  const { page, context, errors } = await visit(`${site.url}?example=race`);
   await page.getByRole("button", { name: "From above" }).click();
   await page.waitForTimeout(1500);
   const frames = await page.evaluate(async () => {
@@ -49,7 +42,7 @@ test("the view of the world stands still when nothing happens, and measures with
 });
 
 test("the sensors of a chosen robot are drawn, and can be hidden", async () => {
-  const { page, context, errors } = await visit(browser, `${server.url}?example=diffusion`);
+  const { page, context, errors } = await visit(`${site.url}?example=diffusion`);
   await page.locator(".play:enabled").waitFor();
   await page.getByLabel("To the next event").click();
   await page.getByRole("listbox", { name: "Robots" }).getByRole("option").first().click();
@@ -61,15 +54,22 @@ test("the sensors of a chosen robot are drawn, and can be hidden", async () => {
   const segments = () =>
     page.evaluate(async () => {
       const pen = CanvasRenderingContext2D.prototype;
-      const { lineTo } = pen;
+      const { lineTo, clearRect } = pen;
       let count = 0;
+      // A busy machine takes its time for the next picture.
+      const drawn = new Promise((resolve) => {
+        pen.clearRect = function (...area) {
+          setTimeout(resolve);
+          return clearRect.apply(this, area);
+        };
+      });
       pen.lineTo = function (...to) {
         count++;
         return lineTo.apply(this, to);
       };
       document.querySelector(".world-picture").dispatchEvent(new KeyboardEvent("keydown", { key: "+" }));
-      await new Promise((resolve) => setTimeout(resolve, 400));
-      pen.lineTo = lineTo;
+      await drawn;
+      Object.assign(pen, { lineTo, clearRect });
       return count;
     });
   const shown = await segments();

@@ -1,13 +1,14 @@
 // Plots are made of what the run's frames and records say, and exported without loss of meaning.
 
 import { expect, test } from "vitest";
-import { csvOf, rangeOf, thin, ticksOf } from "../../src/plots/chart.ts";
+import { csvOf, marksOf, rangeOf, thin, ticksOf } from "../../src/plots/chart.ts";
 import { Rates } from "../../src/plots/rates.ts";
-import { SharedVariables } from "../../src/plots/shared.ts";
+import { SharedVariables, scaleOf } from "../../src/plots/shared.ts";
 import { PAPER, svgOf } from "../../src/plots/svg.ts";
 import { Tracks } from "../../src/plots/tracks.ts";
 import { Events } from "../../src/run/events.ts";
 import { History } from "../../src/run/history.ts";
+import { valueKey } from "../../src/run/run.ts";
 import { delivered, dropped, sent } from "./records.ts";
 
 const frame = (time: number, ...places: [number, number][]) => [
@@ -48,7 +49,7 @@ test("messages are counted in the second in which they happen", () => {
   ]);
 });
 
-test("robots that hold the same value of a shared variable have the same number", () => {
+test("shared variables have their values, and unknown values of robots that agree have the same number", () => {
   const wrote = (time: number, robot: number, name: string, value: number) => ({
     time_ns: time * 1e9,
     topic: "/starl/primitive",
@@ -64,11 +65,35 @@ test("robots that hold the same value of a shared variable have the same number"
   });
   const events = new Events();
   events.add([wrote(1, 0, "write", -77), wrote(2, 1, "update", -77), wrote(3, 1, "write", 12)]);
-  expect(new SharedVariables().update(events).steps.get("v")).toEqual([
-    { time: 1, robot: 0, value: 1 },
-    { time: 2, robot: 1, value: 1 },
-    { time: 3, robot: 1, value: 2 },
+  const known = new Map([[valueKey("v", 12), "2.5"]]);
+  const steps = new SharedVariables().update(events, known).steps.get("v") ?? [];
+  expect(steps).toEqual([
+    { time: 1, robot: 0, value: "value 1" },
+    { time: 2, robot: 1, value: "value 1" },
+    { time: 3, robot: 1, value: "2.5" },
   ]);
+});
+
+test("values that are numbers are drawn as they are, others by name", () => {
+  const numbers = scaleOf(["7", "-2.5"]);
+  expect(numbers.names).toBeUndefined();
+  expect(numbers.at("-2.5")).toBe(-2.5);
+  const names = scaleOf(["red", "3", "red", "blue"]);
+  expect(names.names).toEqual(["red", "3", "blue"]);
+  expect(names.at("blue")).toBe(2);
+  const chart = {
+    title: "t",
+    xLabel: "time, s",
+    yLabel: "v",
+    square: false,
+    names: names.names,
+    lines: [line],
+  };
+  expect(csvOf(chart)).toContain(",0,blue\r\n");
+  expect(marksOf(chart, { low: 0, high: 2 }, 14).map(([, text]) => text)).toEqual(["red", "3", "blue"]);
+  const records = { ...chart, names: ["(life = 0.000s, number = 1)", "(life = 0.000s, number = 2)"] };
+  const ends = marksOf(records, { low: 0, high: 1 }, 14).map(([, text]) => text);
+  expect(ends).toEqual(["…0s, number = 1)", "…0s, number = 2)"]);
 });
 
 const line = { name: 'a "b", c', color: "#000", kept: false, x: [0, 1], y: [2, Number.NaN] };

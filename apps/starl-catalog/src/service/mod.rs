@@ -251,6 +251,9 @@ impl Service {
             Request::World { simulation } => answer(&World::of(self.session(simulation)?.run())),
             Request::Fleet { simulation } => answer(&fleet(self.session(simulation)?.run())),
             Request::States { simulation } => answer(&states(self.session(simulation)?.run())),
+            Request::Values { simulation } => {
+                answer(&self.session(simulation)?.take_shared_values())
+            }
             Request::Robot { simulation, robot } => {
                 let found = self.session(simulation)?.robot(robot);
                 answer(&found.ok_or_else(|| format!("there is no robot {robot}"))?)

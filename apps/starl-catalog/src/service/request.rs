@@ -129,6 +129,9 @@ pub enum Request {
     States {
         simulation: u32,
     },
+    Values {
+        simulation: u32,
+    },
     Robot {
         simulation: u32,
         robot: RobotId,

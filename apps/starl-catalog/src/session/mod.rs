@@ -14,6 +14,7 @@ mod poses;
 mod recorded;
 mod report;
 mod senses;
+mod shared;
 
 pub use breakpoint::{Breakpoint, Stopped};
 pub use diagnostic::{Diagnostic, Edit, Related, check};
@@ -32,11 +33,13 @@ pub use report::{
     Violation, World, fleet, states,
 };
 pub use senses::{DetectionReport, RayReport, SensorReport};
+pub use shared::SharedValue;
 
 use crate::Application;
 use crate::programs::Registry;
 use breakpoint::Breakpoints;
 use poses::Frames;
+use shared::SharedValues;
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use starl_sim::engine::InterventionError;
 use starl_sim::{Run, write};
@@ -57,6 +60,7 @@ pub struct Session {
     topics: Option<BTreeSet<Topic>>,
     most_records: usize,
     breakpoints: Breakpoints,
+    shared: SharedValues,
     live: Live,
     kept: BTreeMap<u32, Live>,
     next: u32,
@@ -151,6 +155,7 @@ impl Session {
             topics: None,
             most_records: MOST_RECORDS,
             breakpoints: Breakpoints::default(),
+            shared: SharedValues::default(),
             live: Live {
                 run,
                 records: VecDeque::new(),
@@ -220,7 +225,9 @@ impl Session {
     /// Makes one physics step, also when the run is over.
     pub fn step(&mut self) -> Status {
         let kept = (self.topics.as_ref(), self.most_records);
-        let stopped = self.live.step(kept, &mut self.breakpoints);
+        let stopped = self
+            .live
+            .step(kept, &mut self.breakpoints, &mut self.shared);
         Status {
             stopped,
             ..Status::of(&self.live.run, 1)
@@ -240,7 +247,7 @@ impl Session {
                 return Status::of(&live.run, steps);
             }
             let kept = (self.topics.as_ref(), self.most_records);
-            let stopped = live.step(kept, &mut self.breakpoints);
+            let stopped = live.step(kept, &mut self.breakpoints, &mut self.shared);
             steps += 1;
             if let Some(period) = sample {
                 live.frames.sample(&live.run, before, period);
@@ -333,6 +340,12 @@ impl Session {
         Report::of(&self.live.run)
     }
 
+    /// Takes the values of shared variables that records since the last call are about, as far as robots of programs in
+    /// the StarL language held them after the step. Values of linearizable variables are not among them.
+    pub fn take_shared_values(&mut self) -> Vec<SharedValue> {
+        self.shared.take()
+    }
+
     /// One robot as it is now; none if there is no such robot.
     pub fn robot(&self, robot: RobotId) -> Option<RobotReport> {
         RobotReport::of(&self.live.run, robot)
@@ -360,9 +373,11 @@ impl Live {
         &mut self,
         (topics, most): (Option<&BTreeSet<Topic>>, usize),
         breakpoints: &mut Breakpoints,
+        shared: &mut SharedValues,
     ) -> Option<Stopped> {
         self.run.step();
         let records = self.run.records();
+        shared.look(&self.run, records);
         let wanted = records.iter().filter(|record| {
             topics.is_none_or(|topics| topics.contains(&Topic::of(&record.event)))
         });

@@ -3,6 +3,7 @@
 use super::breakpoint::Stopped;
 use super::inspect::condition;
 use serde::Serialize;
+use starl_core::intervention::NetworkKnob;
 use starl_core::{Obstacle, Point, RobotId, WayPoint};
 use starl_lang::robot::RobotProgram;
 use starl_properties::Verdict;
@@ -40,6 +41,8 @@ pub struct Report {
     pub messages: Messages,
     /// The number of contacts of bodies.
     pub collisions: u64,
+    /// The network as it is now: the positions of all knobs.
+    pub network: Vec<NetworkKnob>,
     /// Each property that is watched.
     pub properties: Vec<Property>,
     /// Every violation so far.
@@ -235,6 +238,7 @@ impl Report {
             progress: Progress::of(simulation),
             messages: Messages::of(simulation),
             collisions: simulation.tally().collisions,
+            network: simulation.network().knobs(),
             properties: run.verdicts().into_iter().map(Property::of).collect(),
             violations: Violation::all(run),
             failures: Failure::all(run),

@@ -7,7 +7,7 @@ use super::primitives::KINDS;
 use super::program::{Phase, RobotProgram};
 use super::words::type_name;
 use super::workbench::Workbench;
-use crate::machine::{Limits, Machine, Parameter, Value};
+use crate::machine::{Import, Limits, Machine, Parameter, Type, Value};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -68,6 +68,33 @@ impl RobotProgram {
             }
         });
         variables.collect()
+    }
+
+    /// The value of a shared variable that has this hash in events, as text; none if the robot does not hold it now.
+    ///
+    /// Bytecode does not say which variable has which type. So this is none, too, if the bytes are a value of several
+    /// types that shared variables of the same kind have.
+    pub fn shared_value(&self, variable: &str, hash: i64) -> Option<String> {
+        let bytes = self.services.memory.as_ref()?.with_hash(variable, hash)?;
+        let program = self.code.program();
+        let bytecode = program.bytecode();
+        let mut bindings = bytecode.primitives.iter();
+        let binding = bindings.find(|binding| binding.name == variable)?;
+        let writes = |import: &&Import| {
+            let member = import.name.strip_prefix(&binding.kind);
+            matches!(member, Some(".initialize" | ".write"))
+        };
+        let mut kinds: Vec<&Type> = Vec::new();
+        for import in bytecode.imports.iter().filter(writes) {
+            let kind = import.arguments.last();
+            kinds.extend(kind.filter(|kind| !kinds.contains(kind)));
+        }
+        let mut values = kinds.into_iter().filter_map(|kind| {
+            let (scalars, objects) = program.decode(core::slice::from_ref(kind), bytes)?;
+            Value::read(program, kind, &scalars, &objects)
+        });
+        let value = values.next()?;
+        values.next().is_none().then(|| value.to_string())
     }
 
     /// Where it is, in a word: the value of its first variable of an enum, else its role. None before it starts, or if

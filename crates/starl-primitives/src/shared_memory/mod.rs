@@ -207,6 +207,19 @@ impl SharedMemory {
         Some(self.store.get(variable, Some(owner))?.stamp)
     }
 
+    /// The value of a variable that has this hash in events, among all values that this robot knows.
+    pub fn with_hash(&self, variable: &str, hash: i64) -> Option<&[u8]> {
+        let initial = self.initial_elements.get(variable);
+        let own = [
+            self.read(variable),
+            self.initial(variable),
+            initial.map(|value| &value[..]),
+        ];
+        let elements = self.all(variable).map(|(_, value)| value);
+        let mut values = own.into_iter().flatten().chain(elements);
+        values.find(|value| report::value_hash(value) == hash)
+    }
+
     /// How many variables and elements are known.
     pub fn elements(&self) -> usize {
         self.store.len()

@@ -1,9 +1,9 @@
 //! The fields of the trace events of shared memory.
 
 use super::store::Element;
+use starl_core::Digest;
 use starl_core::event::storing::Written;
 use starl_core::random::hash_key;
-use starl_core::{Digest, Payload};
 
 /// A write to an element.
 pub(super) fn written(element: &Element) -> Written {
@@ -20,7 +20,7 @@ pub(super) fn written(element: &Element) -> Written {
 }
 
 /// The hash of a value in events.
-pub(super) fn value_hash(value: &Payload) -> i64 {
+pub(super) fn value_hash(value: &[u8]) -> i64 {
     let mut digest = Digest::default();
     digest.bytes(value);
     hash_key(digest.value(), &[]) as i64

@@ -10,7 +10,7 @@ use super::simulated_robot::SimulatedRobot;
 use super::slots::Slots;
 use super::things::Things;
 use super::{populate, radio};
-use crate::scenario::Scenario;
+use crate::scenario::{Network, Scenario};
 use starl_core::event::Name;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
@@ -149,6 +149,11 @@ impl Simulation {
     /// The scenario of the simulation.
     pub fn scenario(&self) -> &Scenario {
         &self.shared.scenario
+    }
+
+    /// The network as it is now, after everything that has changed it.
+    pub fn network(&self) -> &Network {
+        &self.shared.network
     }
 
     /// The present time.

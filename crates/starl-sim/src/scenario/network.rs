@@ -158,6 +158,11 @@ macro_rules! knobs {
                 }
             }
 
+            /// The positions of all knobs.
+            pub fn knobs(&self) -> Vec<NetworkKnob> {
+                vec![$(NetworkKnob::$knob(self.$($table.)?$field),)+]
+            }
+
             /// The changes of the network that are written in a table.
             pub(crate) fn read_knobs(section: Section<'_>) -> Vec<NetworkKnob> {
                 let mut knobs = Vec::new();
