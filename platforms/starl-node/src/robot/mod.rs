@@ -17,11 +17,11 @@ use crate::localise::Accuracy;
 use crate::motors::{Motors, PositionSource, Report};
 use crate::planner::Planner;
 use crate::safety::Safety;
-use crate::surroundings::Thing;
+use crate::surroundings::{MapObstacle, Thing};
 use crate::writer::{StorageWriter, Written};
 use crate::{Device, Storage, WallClock};
 use equipment::Attached;
-use starl_core::motion::{Body, Obstacles, Path};
+use starl_core::motion::{Body, Path};
 use starl_core::{Duration, Event, Pose, Program, Random, RobotId, Time, WayPoint};
 use starl_host::{Hardware, Observed};
 use starl_motion::sensing::SensorSuite;
@@ -54,10 +54,8 @@ pub struct Setup {
     pub things: Vec<Thing>,
     /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
-    /// The obstacles that it knows from the start.
-    pub obstacles: Obstacles,
-    /// The obstacles that it has to discover.
-    pub hidden: Obstacles,
+    /// The obstacles of the scenario.
+    pub obstacles: Vec<MapObstacle>,
     /// The period of its position estimates.
     pub positioning_period: Duration,
     /// How exact its odometry and its positions are.
