@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wheel viewer python wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices
+.PHONY: run setup test check unit portable wheel viewer python wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -133,6 +133,11 @@ devices: $(STARL)
 	cd $(FOREIGN) && npm ci --silent --no-audit --no-fund
 	node --no-deprecation $(FOREIGN)/ardrone.mjs $(CARGO_TARGET_DIR)/debug/examples/devices
 
+# A small fleet over Zenoh loses no datagram. `make nightly` tries a hundred robots.
+crowd: $(STARL)
+	rm -rf $(CARGO_TARGET_DIR)/crowd
+	$(VENV)/python tools/crowd.py $(STARL) $(CARGO_TARGET_DIR)/crowd --robots 12 --seconds 10
+
 APPLICATIONS = race formation formation-space line intersection search flocking maze auction traffic-signs \
 	light-painting
 
@@ -157,6 +162,9 @@ nightly: setup $(RELEASE)
 	tools/workloads.sh $(RELEASE) tools/storage.txt --seeds 500 --out target/nightly
 	$(RELEASE) test $(APPLICATIONS) --seeds 30 --out target/nightly
 	$(RELEASE) test search-building intersection-stream --seeds 10 --profile partitions,chaos --out target/nightly
+	cargo build --locked --release --features zenoh
+	rm -rf $(CARGO_TARGET_DIR)/crowd
+	$(VENV)/python tools/crowd.py $(RELEASE) $(CARGO_TARGET_DIR)/crowd
 
 # The same a million times; continues where it was stopped. Not part of `make test`, since it takes ten minutes and more.
 million: $(RELEASE)

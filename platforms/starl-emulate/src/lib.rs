@@ -23,6 +23,7 @@
 //! is dropped.
 
 pub mod ardrone;
+pub mod bodies;
 pub mod conformance;
 mod control;
 pub mod crazyflie;

@@ -44,6 +44,18 @@ fn robots_that_meet_stop_and_press_their_bumpers() {
 }
 
 #[test]
+fn a_robot_passes_where_an_obstacle_has_expired() {
+    let wall = |x| Obstacle::cuboid(Point::planar(x, -1.0), Point::new(x + 0.1, 1.0, 1.0));
+    let until = starl_core::Duration::from_millis;
+    let walls = vec![(wall(0.4), until(300)), (wall(0.7), until(60_000))];
+    let world = World::with_temporary(walls, Noise::NONE);
+    let robot = create(&world, "robot", 0.0, 0.0);
+    robot.command(straight(0.5));
+    sleep(Duration::from_millis(1600));
+    assert!((x(&robot) + RADIUS - 0.7).abs() < 0.01, "{}", x(&robot));
+}
+
+#[test]
 fn robot_pushes_nothing_out_of_its_place() {
     let world = World::new(Vec::new(), Noise::NONE);
     let standing = create(&world, "standing", 1.0, 1.0);

@@ -24,28 +24,36 @@ const MOST_POSTS: usize = 32;
 #[derive(Debug)]
 pub(crate) struct Discovery {
     known: Obstacles,
-    /// The obstacles that are not yet known, as indices into the map of the surroundings.
-    hidden: Vec<u32>,
-    /// How far the robot perceives them, metres.
+    /// Whether each obstacle of the map of the surroundings is known.
+    met: Vec<bool>,
+    /// How far the robot perceives those that are not, metres.
     range: f64,
-    posts: usize,
+    posts: Vec<Obstacle>,
 }
 
 impl Discovery {
     /// Nothing is discovered yet.
-    pub fn new(setup: &Setup) -> Discovery {
-        let first = setup.obstacles.len() as u32;
-        Discovery {
-            known: setup.obstacles.clone(),
-            hidden: (first..first + setup.hidden.len() as u32).collect(),
+    pub fn new(setup: &Setup, surroundings: &Surroundings) -> Discovery {
+        let mut discovery = Discovery {
+            known: Obstacles::from([]),
+            met: setup.obstacles.iter().map(|entry| !entry.hidden).collect(),
             range: setup.sensors.discovery_range,
-            posts: 0,
-        }
+            posts: Vec::new(),
+        };
+        discovery.gather(surroundings);
+        discovery
     }
 
     /// All obstacles that the robot knows.
     pub fn known(&self) -> &Obstacles {
         &self.known
+    }
+
+    /// The map has kept these of its obstacles: see [`Surroundings::expire`].
+    pub fn forget(&mut self, surroundings: &Surroundings, stays: &[bool]) {
+        let mut stays = stays.iter();
+        self.met.retain(|_| stays.next() == Some(&true));
+        self.gather(surroundings);
     }
 
     /// The hidden obstacles that the robot perceives for the first time, at this place.
@@ -76,12 +84,12 @@ impl Discovery {
         }
         let obstacles = surroundings.map().obstacles();
         let found = self.find(surroundings, |index| is_near(&obstacles[index as usize]));
-        if !found.is_empty() || self.posts == MOST_POSTS {
+        if !found.is_empty() || self.posts.len() == MOST_POSTS {
             return found;
         }
-        self.posts += 1;
         let post = Obstacle::circle(touched + direction * POST, POST);
-        self.known = self.known.iter().cloned().chain([post.clone()]).collect();
+        self.posts.push(post.clone());
+        self.gather(surroundings);
         vec![post]
     }
 
@@ -91,15 +99,24 @@ impl Discovery {
         surroundings: &Surroundings,
         is_found: impl Fn(u32) -> bool,
     ) -> Vec<Obstacle> {
-        let (found, hidden): (Vec<u32>, Vec<u32>) =
-            self.hidden.iter().partition(|index| is_found(**index));
-        if found.is_empty() {
-            return Vec::new();
+        let mut found = Vec::new();
+        let obstacles = surroundings.map().obstacles().iter();
+        for ((index, met), obstacle) in (0..).zip(&mut self.met).zip(obstacles) {
+            if !*met && is_found(index) {
+                *met = true;
+                found.push(obstacle.clone());
+            }
         }
-        self.hidden = hidden;
-        let obstacle = |index: u32| surroundings.map().obstacles()[index as usize].clone();
-        let found: Vec<Obstacle> = found.into_iter().map(obstacle).collect();
-        self.known = self.known.iter().chain(&found).cloned().collect();
+        if !found.is_empty() {
+            self.gather(surroundings);
+        }
         found
+    }
+
+    fn gather(&mut self, surroundings: &Surroundings) {
+        let obstacles = surroundings.map().obstacles().iter().zip(&self.met);
+        let met = obstacles.filter(|(_, met)| **met);
+        let met = met.map(|(obstacle, _)| obstacle);
+        self.known = met.chain(&self.posts).cloned().collect();
     }
 }

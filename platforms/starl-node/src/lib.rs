@@ -17,6 +17,7 @@ pub mod safety;
 pub mod simulated;
 pub mod storage;
 pub mod surroundings;
+pub mod world_body;
 pub mod writer;
 
 pub use clock::WallClock;

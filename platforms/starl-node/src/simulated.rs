@@ -6,7 +6,7 @@
 use crate::motors::PositionSource;
 use crate::{Device, DeviceError, Reading};
 use starl_core::math::wrap_angle;
-use starl_core::{Command, Duration, Estimate, Point, Pose};
+use starl_core::{Command, Duration, Estimate, Point, Pose, Twist};
 use starl_motion::{Disturbance, Model, State};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -102,25 +102,27 @@ impl Device for SimulatedDevice {
 
     fn read(&mut self) -> Result<Option<Reading>, DeviceError> {
         let state = self.body.state();
-        let (before, now) = (self.last, state.pose);
-        self.last = now;
-        let turned = wrap_angle(now.yaw - before.yaw);
-        let way = now.position - before.position;
-        let in_frame = |vector: Point, yaw: f64| {
-            let (sin, cos) = yaw.sin_cos();
-            Point::new(
-                vector.x * cos + vector.y * sin,
-                vector.y * cos - vector.x * sin,
-                vector.z,
-            )
-        };
-        Ok(Some(Reading {
-            moved: Some(in_frame(way, before.yaw)),
-            turned: Some(turned),
-            velocity: Some(in_frame(state.twist.linear, now.yaw)),
-            height: Some(now.position.z),
-            ..Reading::default()
-        }))
+        let before = std::mem::replace(&mut self.last, state.pose);
+        Ok(Some(reading(&before, &state.pose, &state.twist)))
+    }
+}
+
+/// The measurements of a body that has moved from one pose to another.
+pub(crate) fn reading(before: &Pose, now: &Pose, twist: &Twist) -> Reading {
+    let in_frame = |vector: Point, yaw: f64| {
+        let (sin, cos) = yaw.sin_cos();
+        Point::new(
+            vector.x * cos + vector.y * sin,
+            vector.y * cos - vector.x * sin,
+            vector.z,
+        )
+    };
+    Reading {
+        moved: Some(in_frame(now.position - before.position, before.yaw)),
+        turned: Some(wrap_angle(now.yaw - before.yaw)),
+        velocity: Some(in_frame(twist.linear, now.yaw)),
+        height: Some(now.position.z),
+        ..Reading::default()
     }
 }
 

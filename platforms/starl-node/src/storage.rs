@@ -226,17 +226,32 @@ mod tests {
         }
     }
 
-    fn folder(name: &str) -> PathBuf {
-        let folder =
-            std::env::temp_dir().join(format!("starl-storage-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        folder
+    /// A folder that is removed with its files at the end of the test.
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Folder {
+            let name = format!("starl-storage-{name}-{}", std::process::id());
+            let folder = Folder(std::env::temp_dir().join(name));
+            std::fs::create_dir_all(&folder.0).unwrap();
+            folder
+        }
+
+        fn file(&self) -> PathBuf {
+            self.0.join("r1.store")
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
     }
 
     #[test]
     fn a_value_is_there_after_reopening() {
-        let path = folder("reopen").join("r1.store");
-        let _ = std::fs::remove_file(&path);
+        let folder = Folder::new("reopen");
+        let path = folder.file();
         for round in 0..5 {
             let mut storage = Storage::open(&path).unwrap();
             assert_eq!(
@@ -249,8 +264,8 @@ mod tests {
 
     #[test]
     fn a_log_that_grows_is_made_smaller_and_keeps_its_values() {
-        let path = folder("compact").join("r1.store");
-        let _ = std::fs::remove_file(&path);
+        let folder = Folder::new("compact");
+        let path = folder.file();
         let mut storage = Storage::open(&path).unwrap();
         for round in 0..4000 {
             storage.write(vec![save("a", round), save("b", 3)]).unwrap();
@@ -264,8 +279,8 @@ mod tests {
 
     #[test]
     fn a_file_cut_anywhere_holds_all_writes_that_are_whole() {
-        let path = folder("cut").join("r1.store");
-        let _ = std::fs::remove_file(&path);
+        let folder = Folder::new("cut");
+        let path = folder.file();
         let mut storage = Storage::open(&path).unwrap();
         let mut ends = vec![storage.size];
         for round in 0..6 {
@@ -292,8 +307,8 @@ mod tests {
 
     #[test]
     fn a_file_damaged_in_the_middle_counts_as_lost() {
-        let path = folder("damage").join("r1.store");
-        let _ = std::fs::remove_file(&path);
+        let folder = Folder::new("damage");
+        let path = folder.file();
         let mut storage = Storage::open(&path).unwrap();
         for round in 0..6 {
             storage.write(vec![save("a", round)]).unwrap();
@@ -311,7 +326,8 @@ mod tests {
 
     #[test]
     fn two_processes_cannot_share_a_file() {
-        let path = folder("lock").join("r1.store");
+        let folder = Folder::new("lock");
+        let path = folder.file();
         let _storage = Storage::open(&path).unwrap();
         let error = Storage::open(&path).unwrap_err();
         assert!(error.to_string().contains("another process"), "{error}");
@@ -319,7 +335,8 @@ mod tests {
 
     #[test]
     fn another_file_is_refused() {
-        let path = folder("other").join("r1.store");
+        let folder = Folder::new("other");
+        let path = folder.file();
         std::fs::write(&path, "a text that is not a storage file").unwrap();
         assert!(
             Storage::open(&path)

@@ -30,8 +30,10 @@ pub(crate) struct Surroundings {
     things: Vec<Point>,
     /// The names of the things, by number.
     pub thing_names: Vec<Name>,
-    /// The obstacles of the scenario: those that are known from the start, then the hidden ones.
+    /// The obstacles of the scenario that have not expired, known or not.
     map: ObstacleIndex,
+    /// When each of them expires.
+    expiries: Vec<Time>,
     sensors: SensorSuite,
     readings: Readings,
     /// When the sensors were read.
@@ -60,14 +62,17 @@ impl Surroundings {
             told: None,
             sight: Localiser::new(setup.accuracy, None, true, Time::ZERO),
         };
-        let obstacles = setup.obstacles.iter().chain(setup.hidden.iter());
-        let obstacles: Vec<Obstacle> = obstacles.cloned().collect();
+        let obstacles = setup.obstacles.iter();
+        let (obstacles, expiries): (Vec<Obstacle>, Vec<Time>) = obstacles
+            .map(|entry| (entry.obstacle.clone(), entry.expires))
+            .unzip();
         Surroundings {
             me: setup.id,
             others: bodies.map(other).collect(),
             things: things.clone().map(|thing| thing.position).collect(),
             thing_names: things.map(|thing| thing.name.clone()).collect(),
             map: ObstacleIndex::new(&obstacles),
+            expiries,
             sensors: setup.sensors,
             readings: Readings::default(),
             read: None,
@@ -103,9 +108,26 @@ impl Surroundings {
         self.others[self.me.index()].at(place)
     }
 
-    /// The obstacles of the scenario: those that are known from the start, then the hidden ones.
+    /// The obstacles of the scenario that have not expired, known or not.
     pub fn map(&self) -> &ObstacleIndex {
         &self.map
+    }
+
+    /// Removes the obstacles that have expired by `now` from the map. Returns which of its obstacles have stayed; none if
+    /// all have.
+    pub fn expire(&mut self, now: Time) -> Option<Vec<bool>> {
+        if self.expiries.iter().all(|at| *at > now) {
+            return None;
+        }
+        let stays: Vec<bool> = self.expiries.iter().map(|at| *at > now).collect();
+        let staying = self.map.obstacles().iter().zip(&stays);
+        let obstacles: Vec<Obstacle> = staying
+            .filter(|(_, stays)| **stays)
+            .map(|(obstacle, _)| obstacle.clone())
+            .collect();
+        self.map = ObstacleIndex::new(&obstacles);
+        self.expiries.retain(|at| *at > now);
+        Some(stays)
     }
 
     /// Computes the readings of the robot's sensors at `now`, with the robot at `pose`; nothing for a robot without
@@ -187,7 +209,7 @@ mod tests {
     use super::*;
     use crate::Safety;
     use crate::localise::Accuracy;
-    use crate::robot::Thing;
+    use crate::robot::{MapObstacle, Thing};
     use starl_core::motion::Workspace;
     use starl_core::sensor::Detected;
     use starl_core::{Program, Random, Robot};
@@ -241,8 +263,14 @@ mod tests {
                 position: place(-1.0),
             }],
             way_points: Vec::new(),
-            obstacles: obstacle.into_iter().collect(),
-            hidden: Vec::new().into(),
+            obstacles: obstacle
+                .map(|obstacle| MapObstacle {
+                    obstacle,
+                    hidden: false,
+                    expires: Time::NEVER,
+                })
+                .into_iter()
+                .collect(),
             positioning_period: Duration::from_millis(100),
             accuracy: Accuracy::default(),
             start: None,

@@ -1,4 +1,4 @@
-//! A robot discovers obstacles that its map lacks: by sight, and by its bumper.
+//! A robot discovers obstacles that its map lacks, by sight and by its bumper, and forgets those that have expired.
 
 mod support;
 
@@ -9,6 +9,7 @@ use starl_core::{Point, Pose, Program, Robot, Time};
 use starl_node::Reading;
 use starl_node::link::Channel;
 use starl_node::motors::Report;
+use starl_node::robot::MapObstacle;
 use starl_node::robot::{Core, Incoming, Setup};
 use support::{Idle, Notes, at, setup};
 
@@ -28,10 +29,25 @@ fn post(x: f64) -> Obstacle {
     Obstacle::circle(Point::planar(x, 0.0), 0.1)
 }
 
+/// Posts at these places, hidden or not, that disappear at these times in milliseconds.
+fn obstacles(posts: &[(f64, bool, u64)]) -> Vec<MapObstacle> {
+    let posts = posts.iter().map(|&(x, hidden, expires)| MapObstacle {
+        obstacle: post(x),
+        hidden,
+        expires: at(expires),
+    });
+    posts.collect()
+}
+
 /// A robot with these hidden obstacles that perceives them to `range` metres.
 fn hiding(range: f64, hidden: &[Obstacle]) -> Setup {
     let mut setup = setup(Counting);
-    setup.hidden = hidden.into();
+    let hidden = hidden.iter().map(|obstacle| MapObstacle {
+        obstacle: obstacle.clone(),
+        hidden: true,
+        expires: Time::NEVER,
+    });
+    setup.obstacles = hidden.collect();
     setup.sensors.discovery_range = range;
     setup
 }
@@ -39,14 +55,23 @@ fn hiding(range: f64, hidden: &[Obstacle]) -> Setup {
 /// Runs a robot for a second, shows it these reports, and returns what it has discovered and when, and how many obstacles
 /// its program knows at the end.
 fn run(setup: Setup, reports: impl Fn(u64) -> Option<Report>) -> (Vec<(Time, Obstacle)>, String) {
+    run_for(1000, setup, reports)
+}
+
+/// The same for so many milliseconds.
+fn run_for(
+    end: u64,
+    setup: Setup,
+    reports: impl Fn(u64) -> Option<Report>,
+) -> (Vec<(Time, Obstacle)>, String) {
     let channel = Channel::new(0, "fleet", Vec::new());
     let mut core = Core::new(at(0), setup, channel, Idle, Notes::default());
-    for ms in 0..=1000 {
+    for ms in 0..=end {
         let mut incoming: Vec<_> = reports(ms).map(Incoming::Device).into_iter().collect();
         core.step(at(ms), &mut incoming);
     }
     let (mut found, mut known) = (Vec::new(), String::new());
-    for (at, event) in core.end(at(1000)).0 {
+    for (at, event) in core.end(at(end)).0 {
         match event {
             Event::Discovered(obstacle) => found.push((at, obstacle)),
             Event::Log { text, .. } => known = text.to_string(),
@@ -116,4 +141,29 @@ fn a_touch_of_a_robot_is_no_obstacle() {
         _ => seen_at(ms, 0.0),
     });
     assert_eq!(found, []);
+}
+
+#[test]
+fn an_obstacle_that_has_expired_is_not_known_any_more() {
+    let seen = |ms: u64| seen_at(ms, 0.0);
+    // The first one is known and hides the third one, which expires first.
+    for (end, expected) in [(450, "2"), (650, "1"), (1000, "0")] {
+        let mut setup = hiding(0.6, &[]);
+        setup.obstacles = obstacles(&[(0.5, false, 500), (-0.5, true, 700), (0.6, true, 400)]);
+        let (found, known) = run_for(end, setup, seen);
+        assert_eq!(known, expected, "after {end} ms");
+        assert_eq!(found, [(at(0), post(-0.5))]);
+    }
+}
+
+#[test]
+fn an_obstacle_that_has_expired_is_not_discovered_and_does_not_hide_others() {
+    let mut setup = hiding(0.6, &[]);
+    setup.obstacles = obstacles(&[(0.5, true, 300), (0.8, true, 2000)]);
+    let (found, known) = run(setup, |ms| match ms.is_multiple_of(10) {
+        true => seen_at(ms, if ms < 500 { -1.0 } else { 0.3 }),
+        false => None,
+    });
+    assert_eq!(found, [(at(500), post(0.8))]);
+    assert_eq!(known, "1");
 }

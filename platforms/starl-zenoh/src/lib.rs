@@ -5,6 +5,10 @@
 //! several networks as long as routers join them. No multicast is used. Packets are protected by
 //! [`starl_node::link::Channel`] as on any link; TLS comes beneath that where it is configured.
 
+mod tls;
+
+pub use tls::{Tls, TlsError};
+
 use starl_node::link::{Arrival, Member, Origin, Transport};
 use std::io;
 use std::path::PathBuf;
@@ -52,17 +56,6 @@ impl Mode {
             Mode::Router => "router",
         }
     }
-}
-
-/// Certificates and keys, as files in PEM.
-#[derive(Clone, Debug)]
-pub struct Tls {
-    /// The authority that signs the certificates of all members.
-    pub authority: PathBuf,
-    /// This member's certificate.
-    pub certificate: PathBuf,
-    /// The key to it.
-    pub key: PathBuf,
 }
 
 /// Why a member cannot join.

@@ -13,6 +13,7 @@ use starl_natnet::{NatNet, NatNetOptions, UpAxis};
 use starl_node::DeviceError;
 use starl_node::motors::PositionSource;
 use starl_node::simulated::SimulatedBody;
+use starl_node::world_body::WorldBody;
 use starl_sim::scenario::Group;
 use starl_vrpn::{Vrpn, VrpnOptions};
 use std::net::{IpAddr, Ipv4Addr};
@@ -31,8 +32,14 @@ pub fn connect(
     let cannot = |error: DeviceError| Failure(format!("{}: its device: {error}", member.name));
     let device: Box<dyn starl_node::Device> = match &member.device {
         Device::Simulated => {
-            let body = SimulatedBody::new(group.model.clone(), start);
             let period = fleet.application.scenario().positioning.period;
+            if let Some(world) = fleet.world {
+                let body = WorldBody::new(world, &member.body, group.model.clone());
+                let body = body.map_err(cannot)?;
+                let positions = body.positions(period);
+                return Ok((Box::new(body.device()), Some(Box::new(positions))));
+            }
+            let body = SimulatedBody::new(group.model.clone(), start);
             return Ok((
                 Box::new(body.device()),
                 Some(Box::new(body.positions(period))),
@@ -58,7 +65,12 @@ pub fn connect(
             options.baud = baud.unwrap_or(options.baud);
             let create = Create::open(port, &options);
             Box::new(create.map_err(|error| {
-                Failure(format!("{}: {}: {error}", member.name, port.display()))
+                let what = format!(
+                    "robots.{}.device.port: {} cannot be opened: {error}; check that the robot is connected, or emulate it with --emulate",
+                    member.name,
+                    port.display()
+                );
+                Failure::file(&fleet.path, what)
             })?)
         }
         Device::Ardrone { commands, navdata } => {

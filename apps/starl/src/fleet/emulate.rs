@@ -14,6 +14,7 @@ use starl_catalog::programs::Registry;
 use starl_core::{Pose, RobotId};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
+use starl_emulate::bodies::EmulatedBodies;
 use starl_emulate::crazyflie::EmulatedCrazyflie;
 use starl_emulate::create::{EmulatedCreate, model};
 use starl_emulate::mavlink::EmulatedVehicle;
@@ -23,6 +24,7 @@ use starl_emulate::{BodyHandle, Noise, World};
 use starl_mavlink::{Autopilot, MavlinkOptions};
 use starl_motion::{Model, models};
 use starl_sim::Scenario;
+use starl_sim::read::suggest;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::Path;
 use std::sync::Arc;
@@ -107,13 +109,22 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
         turn: scenario.motion.turn_noise,
         seed: scenario.seed,
     };
-    let obstacles = obstacles.map(|entry| entry.obstacle.clone());
-    let walls = scenario.world.walls();
-    let world = World::new(obstacles.chain(walls).collect(), noise);
+    let obstacles = obstacles.map(|entry| {
+        (
+            entry.obstacle.clone(),
+            starl_core::Duration(entry.expires.0),
+        )
+    });
+    let walls = scenario.world.walls().into_iter();
+    let walls = walls.map(|wall| (wall, starl_core::Duration(u64::MAX)));
+    let world = World::with_temporary(obstacles.chain(walls).collect(), noise);
     let mut emulated = Vec::new();
     let mut routers = Routers::default();
     for member in &fleet.robots {
         emulated.extend(member_device(&world, &fleet, member, &mut routers)?);
+    }
+    if let Some(address) = fleet.world {
+        emulated.push(bodies(&world, &fleet, address)?);
     }
     if let Some(source) = &fleet.positions {
         emulated.extend(positions(&world, source, scenario)?);
@@ -121,10 +132,31 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
     match emulated.is_empty() {
         true => Err(Failure::file(
             &fleet.path,
-            "names no device that could be emulated: all robots are simulated",
+            "names no device that could be emulated: all robots are simulated; with `world = \"127.0.0.1:7500\"` their bodies are",
         )),
         false => Ok(emulated),
     }
+}
+
+/// The bodies of the simulated robots.
+fn bodies(world: &World, fleet: &Fleet, address: SocketAddr) -> Result<Emulated, Failure> {
+    let simulated = fleet.robots.iter();
+    let simulated = simulated.filter(|member| member.device == Device::Simulated);
+    let added = simulated.filter_map(|member| {
+        let (group, index) = fleet.application.scenario().fleet.group_of(member.id)?;
+        Some(add(
+            world,
+            &member.body,
+            group.starts[index],
+            group.model.clone(),
+        ))
+    });
+    let device = EmulatedBodies::start(added.collect::<Result<_, _>>()?, address)
+        .map_err(|error| Failure(format!("world {address}: {}", reason(&error))))?;
+    Ok(Emulated {
+        text: format!("bodies of simulated robots at {}", device.address()),
+        _device: Box::new(device),
+    })
 }
 
 /// The motion capture of a world; none where robots locate themselves.
@@ -240,7 +272,11 @@ fn drone() -> Result<Arc<dyn Model>, Failure> {
 }
 
 fn named_model(name: &str) -> Result<Arc<dyn Model>, Failure> {
-    models::by_name(name).ok_or_else(|| Failure(format!("there is no model {name}")))
+    models::by_name(name).ok_or_else(|| {
+        let names = models::NAMES.map(|(name, _)| name);
+        let help = suggest::help(name, &names, "the models are").unwrap_or_default();
+        Failure(format!("--model {name}: there is no such model; {help}"))
+    })
 }
 
 fn mavlink(body: BodyHandle, address: SocketAddr, client: SocketAddr) -> Result<Emulated, Failure> {

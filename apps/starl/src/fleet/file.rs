@@ -14,6 +14,7 @@ use starl_node::link::{Impairment, Key};
 use starl_sim::read::suggest;
 use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 /// The port of the first robot, where no robot has an address of its own.
@@ -35,8 +36,11 @@ struct Written {
     #[serde(default)]
     safety: Safety,
     positions: Option<Positions>,
+    /// The address of a world in which simulated robots have their bodies together with emulated ones; default none: each
+    /// is alone.
+    world: Option<SocketAddr>,
     /// A robot's trace ends at this many MiB; default 1024.
-    trace_limit_mib: Option<u32>,
+    trace_limit_mib: Option<NonZeroU32>,
     #[serde(default)]
     robots: BTreeMap<String, Robot>,
 }
@@ -190,6 +194,34 @@ pub enum Device {
     },
 }
 
+impl Device {
+    /// The problem of the device for a robot of this model, behind the name of its field.
+    fn check(&self, model: &str) -> Result<(), String> {
+        let (kind, models): (_, &[&str]) = match self {
+            Device::Simulated => return Ok(()),
+            Device::Create { generation, .. } => {
+                if let Some(other) = generation.filter(|number| !(1..=2).contains(number)) {
+                    return Err(format!(
+                        ".generation = {other}: give 1 for the Create of 2007, or 2 for the Create 2"
+                    ));
+                }
+                ("create", &["create"])
+            }
+            Device::Ardrone { .. } => ("ardrone", &["drone"]),
+            Device::Crazyflie { .. } => ("crazyflie", &["drone"]),
+            Device::Mavlink { .. } => ("mavlink", &["drone"]),
+            Device::Ros2 { .. } => ("ros2", &["create", "differential"]),
+        };
+        match models.contains(&model) {
+            true => Ok(()),
+            false => Err(format!(
+                ": kind = \"{kind}\" is for the model {}, and the scenario's robot is a {model}",
+                models.join(" or ")
+            )),
+        }
+    }
+}
+
 /// The source of positions. Without it robots have only their odometry, from the scenario's starts.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
@@ -243,6 +275,8 @@ pub struct Fleet {
     pub network: Network,
     /// The source of positions.
     pub positions: Option<Positions>,
+    /// The world of the bodies of simulated robots; none if each is alone.
+    pub world: Option<SocketAddr>,
     /// The largest size of a robot's trace in bytes; the trace ends there.
     pub trace_limit: u64,
 }
@@ -279,8 +313,16 @@ impl Fleet {
             Some(_) => written.scenario.clone(),
             None => folder.join(&written.scenario).display().to_string(),
         };
+        if examples::find(&scenario).is_none() && !Path::new(&scenario).exists() {
+            let what = format!(
+                "scenario = \"{}\": there is no example and no file called this; a path is meant from the fleet file's folder",
+                written.scenario
+            );
+            return Err(Failure::file(path, what));
+        }
         let arguments = arguments(scenario, program, &written.set, quiet);
-        let application = target::read(&arguments, registry)?.application;
+        let read = target::read(&arguments, registry);
+        let application = read.map_err(|error| of_field(path, error))?.application;
         let network = network(path, &written.link)?;
         let stem = path.file_stem().unwrap_or_default().display().to_string();
         let is_protected = written.link.protected.unwrap_or(true);
@@ -307,7 +349,8 @@ impl Fleet {
             key,
             network,
             positions: written.positions,
-            trace_limit: u64::from(written.trace_limit_mib.unwrap_or(1024)) << 20,
+            world: written.world,
+            trace_limit: u64::from(written.trace_limit_mib.map_or(1024, NonZeroU32::get)) << 20,
         })
     }
 
@@ -347,6 +390,14 @@ impl Fleet {
             Some(path) => super::key::read(path, &self.path),
             None => Ok(Vec::new()),
         }
+    }
+}
+
+/// The fleet file has the field `set` for the option `--set`.
+fn of_field(path: &Path, error: Failure) -> Failure {
+    match error.0.strip_prefix("--set ") {
+        Some(problem) => Failure::file(path, format!("set: {problem}")),
+        None => error,
     }
 }
 
@@ -399,13 +450,32 @@ fn members(
             return Err(Failure::file(path, what));
         }
         let mut device = robot.device.unwrap_or_default();
+        let id = RobotId(index as u32);
+        if let Some((group, _)) = fleet.group_of(id) {
+            device
+                .check(group.model.name())
+                .map_err(|problem| Failure::file(path, format!("robots.{name}.device{problem}")))?;
+        }
         if let Device::Create { port, .. } = &mut device {
             // As with other files, a path is meant from the fleet file's folder.
             *port = path.parent().unwrap_or(Path::new("")).join(&port);
         }
+        let body = robot.body.unwrap_or_else(|| name.clone());
+        let same = |other: &&Member| other.device == device && device != Device::Simulated;
+        if let Some(other) = members.iter().find(same) {
+            let other = &other.name;
+            let what = format!("robots.{name}.device: is the same as {other}'s; give each its own");
+            return Err(Failure::file(path, what));
+        }
+        if let Some(other) = members.iter().find(|other| other.body == body) {
+            let other = &other.name;
+            let what =
+                format!("robots.{name}.body: is \"{body}\", as {other}'s; give each its own");
+            return Err(Failure::file(path, what));
+        }
         members.push(Member {
-            id: RobotId(index as u32),
-            body: robot.body.unwrap_or_else(|| name.clone()),
+            id,
+            body,
             name,
             address,
             device,
@@ -425,6 +495,15 @@ fn network(path: &Path, link: &Link) -> Result<Network, Failure> {
             path,
             format!("link.{field}: is for `kind = \"zenoh\"`; this link is UDP"),
         ));
+    }
+    if let (Some(router), tls) = (&link.router, &link.tls)
+        && router.starts_with("tls/") != tls.is_some()
+    {
+        let help = match tls {
+            Some(_) => "certificates are given by `tls`; begin the router with \"tls/\"",
+            None => "a router that begins with \"tls/\" needs certificates; give them by `tls`",
+        };
+        return Err(Failure::file(path, format!("link.router: {help}")));
     }
     Ok(Network {
         kind: link.kind,

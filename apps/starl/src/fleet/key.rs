@@ -62,7 +62,10 @@ pub fn read(path: &Path, fleet: &Path) -> Result<Vec<Key>, Failure> {
         Some(keys) if !keys.is_empty() => Ok(keys),
         _ => Err(Failure::file(
             path,
-            "a key is 64 hexadecimal digits on a line of their own",
+            format!(
+                "a key is 64 hexadecimal digits on a line of their own; copy the file again, or remove it and make a new one with `starl fleet key {}`",
+                fleet.display()
+            ),
         )),
     }
 }

@@ -41,13 +41,47 @@ fn udp(
     let any = SocketAddr::new(IpAddr::V4(here), 0);
     let address = robot.map_or(any, |robot| robot.address);
     let udp = Udp::open(address, fleet.places(), deliver).map_err(|error| {
-        let who = robot.map_or("operator", |robot| &robot.name);
-        Failure(format!(
-            "{who}: the address {address} cannot be used: {}",
-            reason(&error)
-        ))
+        let why = reason(&error);
+        match robot {
+            Some(robot) => Failure::file(
+                &fleet.path,
+                format!(
+                    "robots.{}.address: {address} cannot be used: {why}; if the fleet runs already, `starl fleet stop` ends it, else give another `address` or `link.first_port`",
+                    robot.name
+                ),
+            ),
+            None => Failure(format!("no socket can be opened at {address}: {why}")),
+        }
     })?;
     Ok(Box::new(udp))
+}
+
+/// Refuses certificates that the other members would not accept, and a network that this build does not have.
+#[cfg(feature = "zenoh")]
+pub fn check(fleet: &Fleet, robot: Option<&Member>) -> Result<(), Failure> {
+    let Some(tls) = certificates(fleet, robot) else {
+        return Ok(());
+    };
+    let listens = fleet.network.router.is_none();
+    let address = robot.filter(|_| listens).map(|robot| robot.address.ip());
+    let checked = tls.check(address);
+    checked.map_err(|error| Failure::file(&fleet.path, format!("link.tls.{error}")))
+}
+
+/// The files of a member; none if the fleet has no certificates.
+#[cfg(feature = "zenoh")]
+fn certificates(fleet: &Fleet, robot: Option<&Member>) -> Option<starl_zenoh::Tls> {
+    use std::path::Path;
+
+    let tls = fleet.network.tls.as_ref()?;
+    let name = robot.map_or("operator", |robot| &robot.name);
+    let folder = fleet.path.parent().unwrap_or(Path::new(""));
+    let file = |path: &Path| folder.join(path.display().to_string().replace("NAME", name));
+    Some(starl_zenoh::Tls {
+        authority: file(&tls.authority),
+        certificate: file(&tls.certificate),
+        key: file(&tls.key),
+    })
 }
 
 #[cfg(feature = "zenoh")]
@@ -57,15 +91,13 @@ fn zenoh(
     me: u32,
     deliver: impl Fn(Arrival) -> bool + Send + Sync + 'static,
 ) -> Result<Box<dyn Transport>, Failure> {
-    use starl_zenoh::{Mode, Tls, Zenoh, ZenohOptions};
-    use std::path::Path;
+    use starl_zenoh::{Mode, Zenoh, ZenohOptions};
 
+    check(fleet, robot)?;
     let network = &fleet.network;
     let scheme = if network.tls.is_some() { "tls" } else { "tcp" };
     let endpoint = |place: SocketAddr| format!("{scheme}/{place}");
     let name = robot.map_or("operator", |robot| &robot.name);
-    let folder = fleet.path.parent().unwrap_or(Path::new(""));
-    let file = |path: &Path| folder.join(path.display().to_string().replace("NAME", name));
     let before = fleet
         .robots
         .iter()
@@ -84,16 +116,24 @@ fn zenoh(
             Some(_) => Mode::Client,
             None => Mode::Peer,
         },
-        tls: network.tls.as_ref().map(|tls| Tls {
-            authority: file(&tls.authority),
-            certificate: file(&tls.certificate),
-            key: file(&tls.key),
-        }),
+        tls: certificates(fleet, robot),
     };
     let joined = Zenoh::open(&fleet.name, me, &options, deliver);
-    let joined = joined
-        .map_err(|error| Failure(format!("{name}: cannot join the Zenoh network: {error}")))?;
+    let joined = joined.map_err(|error| {
+        let what = format!(
+            "{name} cannot join the Zenoh network: {error}; check its `address` and `link`, and whether the fleet runs already"
+        );
+        Failure::file(&fleet.path, what)
+    })?;
     Ok(Box::new(joined))
+}
+
+#[cfg(not(feature = "zenoh"))]
+pub fn check(fleet: &Fleet, _: Option<&Member>) -> Result<(), Failure> {
+    match fleet.network.kind {
+        LinkKind::Udp => Ok(()),
+        LinkKind::Zenoh => Err(no_zenoh(fleet)),
+    }
 }
 
 #[cfg(not(feature = "zenoh"))]
@@ -103,8 +143,13 @@ fn zenoh(
     _: u32,
     _: impl Fn(Arrival) -> bool + Send + Sync + 'static,
 ) -> Result<Box<dyn Transport>, Failure> {
-    Err(Failure::file(
+    Err(no_zenoh(fleet))
+}
+
+#[cfg(not(feature = "zenoh"))]
+fn no_zenoh(fleet: &Fleet) -> Failure {
+    Failure::file(
         &fleet.path,
         "link.kind: this build has no Zenoh; build it with the feature `zenoh`, or take `kind = \"udp\"`",
-    ))
+    )
 }

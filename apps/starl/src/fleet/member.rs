@@ -15,8 +15,7 @@ use starl_host::Hardware;
 use starl_host::hardware::Drive;
 use starl_node::link::Channel;
 use starl_node::localise::Accuracy;
-use starl_node::robot::Thing;
-use starl_node::robot::{Connections, Incoming, Robot, Setup, mailbox};
+use starl_node::robot::{Connections, Incoming, MapObstacle, Robot, Setup, Thing, mailbox};
 use starl_node::{Storage, WallClock};
 use starl_properties::Setting;
 use starl_sim::Scenario;
@@ -106,10 +105,18 @@ fn setup(
     let program = program.map_err(|complaint| Failure(complaint.message))?;
     let groups = scenario.fleet.groups.iter();
     let bodies = groups.flat_map(|group| vec![group.model.body(); group.starts.len()]);
-    let obstacles = scenario.world.obstacles.iter();
-    let (hidden, known): (Vec<_>, Vec<_>) = obstacles.partition(|entry| entry.hidden);
-    let shape = |entry: &scenario::WorldObstacle| entry.obstacle.clone();
-    let walls = scenario.world.walls();
+    let obstacle = |entry: &scenario::WorldObstacle| MapObstacle {
+        obstacle: entry.obstacle.clone(),
+        hidden: entry.hidden,
+        expires: entry.expires,
+    };
+    let wall = |obstacle| MapObstacle {
+        obstacle,
+        hidden: false,
+        expires: Time::NEVER,
+    };
+    let obstacles = scenario.world.obstacles.iter().map(obstacle);
+    let walls = scenario.world.walls().into_iter().map(wall);
     let things = scenario.world.things.iter();
     let thing = |thing: &scenario::Thing| Thing {
         name: thing.name.clone().into(),
@@ -136,8 +143,7 @@ fn setup(
         sensors: group.sensors,
         things: things.map(thing).collect(),
         way_points: scenario.world.way_points.clone(),
-        obstacles: known.into_iter().map(shape).chain(walls).collect(),
-        hidden: hidden.into_iter().map(shape).collect(),
+        obstacles: obstacles.chain(walls).collect(),
         positioning_period: scenario.positioning.period,
         accuracy: Accuracy {
             position: scenario.positioning.position_noise.max(usual.position),

@@ -4,7 +4,7 @@ use super::connect::connect;
 use super::file::Fleet;
 use super::folder::Folder;
 use super::merge::merge;
-use super::{key, stop};
+use super::{key, link, stop};
 use crate::args::{FleetUpArguments, VerifyArguments};
 use crate::failure::Failure;
 use crate::run::{quoted, stop_on_interrupt};
@@ -41,6 +41,9 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
             "some robots are on other machines; --print says what to start where",
         ));
     }
+    for robot in &fleet.robots {
+        link::check(&fleet, Some(robot))?;
+    }
     if let Some(path) = &fleet.key {
         key::make_if_missing(path)?;
     }
@@ -67,7 +70,9 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
     ));
     let ends_when_finished = scenario.goal == Goal::AllFinished && !arguments.keep;
     let is_reached = robots.watch(&mut operator, limit.into(), ends_when_finished, &stop)?;
-    stop::halt(&fleet, &mut operator);
+    if !robots.are_stopped() {
+        stop::halt(&fleet, &mut operator);
+    }
     robots.end();
     let out = folder.0.join("merged.mcap");
     let merged = merge(&fleet, &folder, &out)?;
@@ -209,6 +214,10 @@ impl<'a> Robots<'a> {
         let begun = Instant::now();
         while !stop.load(Ordering::Relaxed) && begun.elapsed() < limit {
             self.revive()?;
+            if self.are_stopped() {
+                console::complain("all robots have been stopped\n");
+                return Ok(false);
+            }
             let asked = Instant::now();
             let statuses = operator.statuses(PERIOD);
             let finished = statuses
@@ -243,12 +252,16 @@ impl<'a> Robots<'a> {
                         self.robots[index].name
                     )));
                 }
+                robot.child = None;
+                if status.success() {
+                    // An operator has stopped it.
+                    continue;
+                }
                 console::complain(&format!(
                     "{} has died ({}), and is restarted\n",
                     robot.name,
                     how(status)
                 ));
-                robot.child = None;
                 robot.died = Some(Instant::now());
             }
             if robot.died.is_some_and(|died| died.elapsed() >= PAUSE) {
@@ -258,6 +271,12 @@ impl<'a> Robots<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Whether no robot runs, nor is to be started again.
+    fn are_stopped(&self) -> bool {
+        let mut robots = self.robots.iter();
+        robots.all(|robot| robot.child.is_none() && robot.died.is_none())
     }
 
     /// Ends all processes; robots that were ordered to stop have some time to do so.

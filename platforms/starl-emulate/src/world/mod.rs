@@ -65,6 +65,8 @@ pub struct World {
 #[derive(Debug)]
 struct Floor {
     map: ObstacleIndex,
+    /// When each obstacle of the map disappears.
+    expiries: Vec<Duration>,
     noise: Noise,
     bodies: Vec<Body>,
     steps: u64,
@@ -73,8 +75,16 @@ struct Floor {
 impl World {
     /// An empty floor with these obstacles, whose time starts now.
     pub fn new(obstacles: Vec<Obstacle>, noise: Noise) -> World {
+        let lasting = obstacles.into_iter().map(|it| (it, Duration(u64::MAX)));
+        World::with_temporary(lasting.collect(), noise)
+    }
+
+    /// The same, with the world's time at which each obstacle disappears.
+    pub fn with_temporary(obstacles: Vec<(Obstacle, Duration)>, noise: Noise) -> World {
+        let (obstacles, expiries): (Vec<_>, Vec<_>) = obstacles.into_iter().unzip();
         let shared = Arc::new(Mutex::new(Floor {
             map: ObstacleIndex::new(&obstacles),
+            expiries,
             noise,
             bodies: Vec::new(),
             steps: 0,
@@ -118,7 +128,7 @@ impl World {
 
     /// The world's time: how long its bodies have moved.
     pub fn elapsed(&self) -> Duration {
-        Duration(lock(&self.shared).steps * STEP.0)
+        lock(&self.shared).elapsed()
     }
 
     /// Distances along rays from the centre of a body, metres; infinite where a ray meets nothing.
@@ -144,7 +154,25 @@ impl World {
 }
 
 impl Floor {
+    fn elapsed(&self) -> Duration {
+        Duration(self.steps * STEP.0)
+    }
+
+    /// Removes the obstacles that have expired.
+    fn expire(&mut self) {
+        let now = self.elapsed();
+        if self.expiries.iter().all(|at| *at > now) {
+            return;
+        }
+        let obstacles = self.map.obstacles().iter().zip(&self.expiries);
+        let staying = obstacles.filter(|(_, at)| **at > now);
+        let staying: Vec<Obstacle> = staying.map(|(obstacle, _)| obstacle.clone()).collect();
+        self.map = ObstacleIndex::new(&staying);
+        self.expiries.retain(|at| *at > now);
+    }
+
     fn step(&mut self) {
+        self.expire();
         let predicted: Vec<_> = (0u64..)
             .zip(&self.bodies)
             .map(|(index, body)| body.predict(&self.disturbance(index)))

@@ -85,13 +85,14 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             // Numbers continue from those of earlier lives.
             .with_sequence((now.0 / 1_000_000) as u32);
         let has_fixes = equipment.has_fixes();
+        let surroundings = Surroundings::new(&setup);
         Core {
             peers: vec![Peer::default(); fleet.len()],
             fleet,
             node,
             localiser: Localiser::new(setup.accuracy, setup.start, has_fixes, now),
-            surroundings: Surroundings::new(&setup),
-            discovery: Discovery::new(&setup),
+            discovery: Discovery::new(&setup, &surroundings),
+            surroundings,
             equipment,
             channel,
             to_self: Vec::new(),
@@ -140,6 +141,9 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
     pub fn step(&mut self, now: Time, incoming: &mut Vec<Incoming>) {
         // Time never goes back, so that records are in order.
         self.now = self.now.max(now);
+        if let Some(stays) = self.surroundings.expire(self.now) {
+            self.discovery.forget(&self.surroundings, &stays);
+        }
         self.take_all(incoming, |incoming| matches!(incoming, Incoming::Device(_)));
         if self.is_located() && !self.node.condition().started && self.leaving.is_none() {
             self.locate();

@@ -21,8 +21,10 @@ use crate::writer::{StorageWriter, Written};
 use crate::{Device, Storage, WallClock};
 use equipment::Attached;
 use starl_core::event::Name;
-use starl_core::motion::{Body, Obstacles, Path};
-use starl_core::{Duration, Event, Point, Pose, Program, Random, RobotId, Time, WayPoint};
+use starl_core::motion::{Body, Path};
+use starl_core::{
+    Duration, Event, Obstacle, Point, Pose, Program, Random, RobotId, Time, WayPoint,
+};
 use starl_host::{Hardware, Observed};
 use starl_motion::sensing::SensorSuite;
 use std::io;
@@ -34,6 +36,17 @@ const LONGEST_WAIT: Duration = Duration::from_millis(20);
 
 /// The loop takes at most so many things at once, so that timers are not kept waiting.
 const MOST_AT_ONCE: usize = 64;
+
+/// An obstacle of the scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapObstacle {
+    /// Its shape and place.
+    pub obstacle: Obstacle,
+    /// Robots have to discover it.
+    pub hidden: bool,
+    /// It disappears at this time.
+    pub expires: Time,
+}
 
 /// A thing that detectors see, where it lies.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,10 +76,8 @@ pub struct Setup {
     pub things: Vec<Thing>,
     /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
-    /// The obstacles that it knows from the start.
-    pub obstacles: Obstacles,
-    /// The obstacles that it has to discover.
-    pub hidden: Obstacles,
+    /// The obstacles of the scenario.
+    pub obstacles: Vec<MapObstacle>,
     /// The period of its position estimates.
     pub positioning_period: Duration,
     /// How exact its odometry and its positions are.
