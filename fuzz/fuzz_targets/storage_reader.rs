@@ -15,4 +15,5 @@ fuzz_target!(|bytes: &[u8]| {
         let again = Storage::open(&path).expect("it has just been opened");
         assert_eq!(format!("{:?}", again.saved()), saved);
     }
+    std::fs::remove_file(&path).expect("it is there");
 });

@@ -99,6 +99,60 @@ def test_an_exception_fails_the_robot_and_names_its_line() -> None:
     assert "no such thing" in simulation.report()["failures"][0]["text"]
 
 
+LANE = """
+program = "race"
+duration = "20s"
+motion = { avoidance = false }
+
+[[robots]]
+model = "create"
+count = 2
+sensors = { detector = { range = "3m" } }
+start = [{ position = [0, 0] }, { position = [3, 0] }]
+"""
+
+
+class Lane(starl.RobotProgram):
+    """Robot 0 drives in a lane in which robot 1 stands."""
+
+    def __init__(self) -> None:
+        self.motion = starl.ReachAvoid(gap=1.0)
+        self.line: list[tuple[float, ...]] = [(0, 0), (5, 0), (5, 5, 0)]
+        self.along: list[float] = []
+
+    def activate(self, robot: starl.RobotHandle) -> None:
+        if robot.id == 0:
+            self.motion.drive_lane(robot, self.line, until=8.0)
+            self.along.append(self.motion.along)
+
+
+def test_a_robot_in_a_lane_stops_before_one_that_stands_in_it() -> None:
+    simulation = starl.Simulation(starl.Scenario.from_text(LANE, program=Lane()))
+    simulation.run()
+    driven, standing = simulation.poses[:, 0]
+    assert standing == 3.0
+    # It stops between 0 and 0.6 m before the gap of 1 m.
+    assert 1.0 <= standing - driven <= 1.7
+    assert simulation.report()["failures"] == []
+
+
+@pytest.mark.parametrize(
+    ("line", "until", "problem"),
+    [([], 1.0, "line: give at least one point"), ([(0, float("nan"))], 1.0, "line"), ([(0, 0)], float("inf"), "until")],
+)
+def test_a_lane_without_a_line_is_refused(line: list[tuple[float, float]], until: float, problem: str) -> None:
+    class Wrong(starl.RobotProgram):
+        def __init__(self) -> None:
+            self.motion = starl.ReachAvoid()
+
+        def activate(self, robot: starl.RobotHandle) -> None:
+            self.motion.drive_lane(robot, line, until)
+
+    simulation = starl.Simulation(starl.Scenario(program=Wrong(), robots="create=1", duration="1s"))
+    simulation.run()
+    assert problem in simulation.report()["failures"][0]["text"]
+
+
 class Primitives(starl.RobotProgram):
     """Uses every primitive."""
 

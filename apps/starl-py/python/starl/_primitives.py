@@ -48,10 +48,12 @@ class Primitive:
 
 
 class ReachAvoid(Primitive):
-    """Moves the robot to a target around obstacles and other robots."""
+    """Moves the robot to a target around obstacles and other robots, or along a lane."""
 
-    def __init__(self, *, vicinity: float = 0.075, planner: str = "auto", most_nodes: int = 20_000) -> None:
-        self._options = (vicinity, planner, most_nodes)
+    def __init__(
+        self, *, vicinity: float = 0.075, planner: str = "auto", most_nodes: int = 20_000, gap: float = 0.75
+    ) -> None:
+        self._options = (vicinity, planner, most_nodes, gap)
 
     def _make(self, name: str) -> _native.Primitive:
         return _native.Primitive.reach_avoid(name, *self._options)
@@ -61,8 +63,19 @@ class ReachAvoid(Primitive):
         x, y, z = (*target, 0.0)[:3]
         self._native.go(robot._native, x, y, z)
 
+    def drive_lane(self, robot: RobotHandle, line: Sequence[Sequence[float]], until: float) -> None:
+        """Drives along a line until it is `until` metres from the line's start, and stops before a robot that the
+        detector shows less than `gap` metres from the line ahead. The same line again moves the limit."""
+        places = [(float(x), float(y), float(z)) for x, y, z in ((*point, 0.0)[:3] for point in line)]
+        self._native.drive_lane(robot._native, places, until)
+
+    @property
+    def along(self) -> float:
+        """How far along its lane the robot is, in metres."""
+        return self._native.along()
+
     def stop(self, robot: RobotHandle) -> None:
-        """Gives up the target."""
+        """Gives up the target or the lane."""
         self._native.stop(robot._native)
 
     @property

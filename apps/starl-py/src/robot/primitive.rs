@@ -82,11 +82,14 @@ impl Primitive {
         vicinity: f64,
         planner: &str,
         most_nodes: u32,
+        gap: f64,
     ) -> PyResult<Primitive> {
-        if !(vicinity > 0.0 && vicinity.is_finite()) {
-            return Err(PyValueError::new_err(format!(
-                "vicinity {vicinity}: give metres, more than 0"
-            )));
+        for (name, length) in [("vicinity", vicinity), ("gap", gap)] {
+            if !(length > 0.0 && length.is_finite()) {
+                return Err(PyValueError::new_err(format!(
+                    "{name} {length}: give metres, more than 0"
+                )));
+            }
         }
         let planner: Planner = serde_json::from_value(planner.into())
             .map_err(|error| PyValueError::new_err(format!("planner: {error}")))?;
@@ -94,6 +97,7 @@ impl Primitive {
             vicinity,
             planner,
             most_nodes,
+            gap,
             ..reach_avoid::Options::default()
         };
         Ok(Primitive::of(Kind::ReachAvoid(Box::new(ReachAvoid::new(
@@ -290,6 +294,29 @@ impl Primitive {
             let unsafe_set = robot.obstacles();
             motion.reach_avoid(robot, Point::new(x, y, z), unsafe_set);
         })
+    }
+
+    fn drive_lane(&self, robot: &Handle, line: Vec<(f64, f64, f64)>, until: f64) -> PyResult<()> {
+        let line: Vec<Point> = line.iter().map(|&(x, y, z)| Point::new(x, y, z)).collect();
+        if line.is_empty() || !line.iter().all(|point| point.is_finite()) {
+            return Err(PyValueError::new_err(
+                "line: give at least one point, and finite numbers only",
+            ));
+        }
+        if !until.is_finite() {
+            return Err(PyValueError::new_err(format!(
+                "until {until}: give metres from the start of the line"
+            )));
+        }
+        let mut kind = self.kind();
+        let motion = of_kind!(kind, ReachAvoid);
+        robot.with(|robot| motion.drive_lane(robot, &line, until))
+    }
+
+    /// How far along its lane the robot is, metres.
+    fn along(&self) -> PyResult<f64> {
+        let mut kind = self.kind();
+        Ok(of_kind!(kind, ReachAvoid).along())
     }
 
     fn stop(&self, robot: &Handle) -> PyResult<()> {

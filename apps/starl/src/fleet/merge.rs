@@ -14,12 +14,13 @@ use crate::failure::Failure;
 use crate::output::create_now;
 use crate::replay::{open, unreadable};
 use endings::{Ending, Endings, Span};
+use starl_catalog::disk::reason;
 use starl_catalog::programs::Registry;
 use starl_core::event::{Event, Fault};
 use starl_core::{Duration, RobotId, Time};
 use starl_host::journal;
 use starl_properties::Setting;
-use starl_trace::{Header, Inputs, Item, Outcome, Reader, ViewOptions, Writer};
+use starl_trace::{Header, Inputs, Item, Outcome, Reader, TraceError, ViewOptions, Writer};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 use std::fs::File;
@@ -52,6 +53,8 @@ pub struct Merged {
     apart: Vec<RobotId>,
     /// Robots whose records end although they continued, and when.
     unrecorded: Vec<(RobotId, Time)>,
+    /// Traces that are cut short, when, and how.
+    cut: Vec<(PathBuf, Time, TraceError)>,
 }
 
 impl Merged {
@@ -77,6 +80,20 @@ impl Merged {
                 false => "\n".to_string(),
             };
         }
+        for (path, at, error) in &self.cut {
+            let file = path.file_name().unwrap_or_default().display();
+            text += &match error {
+                TraceError::Truncated(_) | TraceError::NoEnd(_) if *at > Time::ZERO => format!(
+                    "{file}: is cut short at {:.3} s, where its process was killed or lost its power\n",
+                    at.seconds()
+                ),
+                _ if *at > Time::ZERO => format!(
+                    "{file}: cannot be read after {:.3} s, and its robot counts as crashed then: {error}\n",
+                    at.seconds()
+                ),
+                _ => format!("{file}: contains no records, and is left out: {error}\n"),
+            };
+        }
         for robot in &self.missing {
             text += &format!("{}: its trace is missing\n", name(robot));
         }
@@ -100,9 +117,13 @@ impl Merged {
 /// Joins the traces in a folder to one.
 pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failure> {
     let robots = fleet.robots.iter();
-    let lives: BTreeMap<RobotId, Vec<PathBuf>> = robots
+    let mut lives: BTreeMap<RobotId, Vec<PathBuf>> = robots
         .map(|robot| (robot.id, folder.traces_of(&robot.name)))
         .collect();
+    let mut cut = Vec::new();
+    for paths in lives.values_mut() {
+        leave_out_empty(paths, &mut cut)?;
+    }
     let missing: Vec<RobotId> = (lives.iter().filter(|(_, paths)| paths.is_empty()))
         .map(|(robot, _)| *robot)
         .collect();
@@ -121,6 +142,9 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
         .keys()
         .filter(|robot| !clocks.contains_key(robot) && !missing.contains(robot));
     let endings = exchanges.endings(&clocks);
+    for (path, robot, at, error) in &exchanges.cut {
+        cut.push((path.clone(), corrected(&clocks, *robot, *at), error.clone()));
+    }
     setting.unrecorded = endings.unrecorded();
     header.setting =
         serde_json::to_string_pretty(&setting).map_err(|error| Failure::file(out, error))?;
@@ -129,9 +153,40 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
         apart: apart.copied().collect(),
         unrecorded: setting.unrecorded,
         missing,
+        cut,
         clocks,
     };
     Ok(merged)
+}
+
+/// The bytes by which an MCAP file is recognised.
+const MAGIC: u64 = 8;
+
+/// Leaves out the traces of processes that were killed before they had written anything.
+fn leave_out_empty(
+    paths: &mut Vec<PathBuf>,
+    cut: &mut Vec<(PathBuf, Time, TraceError)>,
+) -> Result<(), Failure> {
+    for path in std::mem::take(paths) {
+        let cannot = |error| Failure::file(&path, reason(&error));
+        let file = File::open(&path).map_err(cannot)?;
+        let is_begun = file.metadata().map_err(cannot)?.len() >= MAGIC;
+        match Reader::new(BufReader::new(file)) {
+            Err(error @ TraceError::Truncated(_)) => cut.push((path, Time::ZERO, error)),
+            Err(error @ TraceError::NotMcap) if !is_begun => cut.push((path, Time::ZERO, error)),
+            Err(error) => return Err(unreadable(&path, &error)),
+            Ok(_) => paths.push(path),
+        }
+    }
+    Ok(())
+}
+
+/// A time of a robot's clock on the first robot's.
+fn corrected(clocks: &BTreeMap<RobotId, Clock>, robot: RobotId, at: Time) -> Time {
+    match clocks.get(&robot) {
+        Some(clock) => Time((clock.corrected(at.seconds()) * 1e9).max(0.0) as u64),
+        None => at,
+    }
 }
 
 /// The header and the setting of one robot's trace, as those of a trace of all.
@@ -208,6 +263,8 @@ struct Exchanges {
     strays: Vec<(RobotId, RobotId, Time)>,
     /// The lives of each robot: when they begin and end by its clock, and how.
     spans: BTreeMap<RobotId, Vec<(Time, Time, Ending)>>,
+    /// Traces that are cut short: the robot, when by its clock, and how.
+    cut: Vec<(PathBuf, RobotId, Time, TraceError)>,
 }
 
 /// A datagram: its sender, its receiver, when it arrived by the receiver's clock, and how long it took by the clocks of
@@ -227,6 +284,7 @@ impl Exchanges {
     ) -> Result<Exchanges, Failure> {
         let mut sent: HashMap<(RobotId, u32), Time> = HashMap::new();
         let mut arrived: Vec<(RobotId, RobotId, u32, Time)> = Vec::new();
+        let mut cut = Vec::new();
         let mut spans: BTreeMap<RobotId, Vec<_>> =
             lives.keys().map(|robot| (*robot, Vec::new())).collect();
         for (&robot, path) in lives
@@ -256,10 +314,12 @@ impl Exchanges {
             let ending = Ending::of(life.reader.summary());
             let span = (begin.unwrap_or_default(), life.last, ending);
             spans.entry(robot).or_default().push(span);
+            cut.extend(life.cut.map(|error| (life.path, robot, life.last, error)));
         }
         let mut exchanges = Exchanges {
             sent,
             spans,
+            cut,
             ..Exchanges::default()
         };
         for (from, to, sequence, at) in arrived {
@@ -389,6 +449,8 @@ struct Life {
     reader: Reader<BufReader<File>>,
     last: Time,
     begun: bool,
+    /// Why it cannot be read to its end.
+    cut: Option<TraceError>,
 }
 
 /// A part of a life.
@@ -406,15 +468,25 @@ impl Life {
             reader: open(path)?,
             last: Time::ZERO,
             begun: false,
+            cut: None,
         })
     }
 
-    /// The next part, and its time by the robot's clock. A life that was cut short ends at the cut.
+    /// The next part, and its time by the robot's clock. A life that was cut short ends at the cut: a process that is
+    /// killed while it replaces the end of its trace leaves there whatever it had got to.
     fn next(&mut self) -> Result<Option<(Time, Piece)>, Failure> {
         let next = match self.reader.next_item() {
             None => return Ok(None),
-            Some(Err(error)) if error.is_missing_end() => return Ok(None),
-            Some(Err(error)) => return Err(unreadable(&self.path, &error)),
+            Some(Err(error)) => match error {
+                TraceError::Truncated(_)
+                | TraceError::NoEnd(_)
+                | TraceError::Damaged { .. }
+                | TraceError::TooLong { .. } => {
+                    self.cut = Some(error);
+                    return Ok(None);
+                }
+                _ => return Err(unreadable(&self.path, &error)),
+            },
             Some(Ok(Item::Record(record))) => (record.at, Piece::Record(record.event)),
             Some(Ok(Item::Inputs(Inputs { at, data }))) => (at, Piece::Inputs(data.to_vec())),
         };
@@ -439,10 +511,7 @@ fn write(
     let mut writer =
         Writer::new(create_now(out)?, header, &ViewOptions::default()).map_err(cannot)?;
     writer.expect_inputs(journal::VERSION).map_err(cannot)?;
-    let shift = |robot: RobotId, at: Time| match clocks.get(&robot) {
-        Some(clock) => Time((clock.corrected(at.seconds()) * 1e9).max(0.0) as u64),
-        None => at,
-    };
+    let shift = |robot: RobotId, at: Time| corrected(clocks, robot, at);
     // A line through the differences of clocks is not exact, so an arrival waits for its sending.
     let mut written: HashSet<(RobotId, u32)> = HashSet::new();
     let waits_until = |piece: &Option<Piece>, at: Time, written: &HashSet<_>| match piece {

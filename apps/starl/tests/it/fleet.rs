@@ -318,6 +318,56 @@ fn a_fleet_finishes_although_a_robot_is_killed() {
     );
 }
 
+/// Merges the last run of a folder's fleet and verifies the result; what both print.
+fn merge_and_verify(folder: &Path) -> (String, String) {
+    let merged = starl(folder, &["fleet", "merge", "fleet.toml"]);
+    assert_eq!(status(&merged), 0, "{}", stderr(&merged));
+    let judged = starl(folder, &["verify", "fleet.runs/0001/merged.mcap"]);
+    let text = stdout(&judged);
+    assert_eq!(status(&judged), 0, "{text}{}", stderr(&judged));
+    (stdout(&merged), text)
+}
+
+#[test]
+fn a_trace_that_is_cut_anywhere_is_merged_and_verified() {
+    let folder = fleet("fleet_cut");
+    let output = Up::start(&folder, &[]).end();
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    let path = folder.join("fleet.runs/0001/robot1.1.mcap");
+    let whole = std::fs::read(&path).expect("it was written");
+    assert!(!merge_and_verify(&folder).0.contains("robot1.1.mcap"));
+    for part in 1..8 {
+        let length = whole.len() * part / 8;
+        std::fs::write(&path, &whole[..length]).expect("it can be written");
+        let (merged, judged) = merge_and_verify(&folder);
+        let is_named = merged.contains("robot1.1.mcap: is cut short at ")
+            || merged.contains("robot1.1.mcap: contains no records, and is left out");
+        assert!(is_named, "cut at {length}: {merged}");
+        assert!(judged.contains("broadcast.integrity   holds"), "{judged}");
+    }
+    for length in [0, 4, 8, 100] {
+        std::fs::write(&path, &whole[..length]).expect("it can be written");
+        let (merged, _) = merge_and_verify(&folder);
+        for message in [
+            "robot1.1.mcap: contains no records, and is left out",
+            "robot1: its trace is missing",
+        ] {
+            assert!(merged.contains(message), "cut at {length}: {merged}");
+        }
+    }
+    // The process was killed while it replaced the end of the file by a chunk.
+    let mut damaged = whole.clone();
+    for byte in damaged.iter_mut().skip(whole.len() * 3 / 4) {
+        *byte ^= 0x55;
+    }
+    std::fs::write(&path, damaged).expect("it can be written");
+    let (merged, _) = merge_and_verify(&folder);
+    assert!(
+        merged.contains("robot1.1.mcap: cannot be read after "),
+        "{merged}"
+    );
+}
+
 #[test]
 fn an_operator_sees_and_stops_a_fleet_and_a_stranger_does_not() {
     let folder = fleet("fleet_operator");
@@ -367,7 +417,15 @@ fn an_operator_sees_and_stops_a_fleet_and_a_stranger_does_not() {
     let output = starl(&folder, &["fleet", "stop", "fleet.toml"]);
     assert_eq!(status(&output), 0, "{}", stderr(&output));
     assert_eq!(stdout(&output), "stopped 2 robots\n");
-    drop(up);
+    // They are not started again, and the run is judged.
+    let output = up.end();
+    let (text, messages) = (stdout(&output), stderr(&output));
+    assert!(!messages.contains("restarted"), "{messages}");
+    assert!(
+        messages.contains("all robots have been stopped"),
+        "{messages}"
+    );
+    assert!(text.contains("broadcast.integrity   holds"), "{text}");
     assert!(
         status_of(&folder)
             .iter()
@@ -384,7 +442,14 @@ fn problems_of_a_fleet_file_are_reported_in_one_message() {
             "scenario = \"race.toml\"\nspeed = 3\n",
             "fleet.toml:2: unknown field `speed`",
         ),
-        ("scenario = \"nothing.toml\"\n", "nothing.toml"),
+        (
+            "scenario = \"nothing.toml\"\n",
+            "fleet.toml: scenario = \"nothing.toml\": there is no example and no file",
+        ),
+        (
+            "scenario = \"race.toml\"\nset = [\"parameters.speed=1\"]\n",
+            "fleet.toml: set: parameters.speed: the program has no such parameter",
+        ),
         (
             "scenario = \"race.toml\"\n[robots.robot7]\n",
             "robots.robot7: the scenario has no robot of this name",
@@ -408,6 +473,22 @@ fn problems_of_a_fleet_file_are_reported_in_one_message() {
         (
             "scenario = \"race.toml\"\n[robots.robot0]\ndevice = { kind = \"toaster\" }\n",
             "fleet.toml:3: unknown variant `toaster`",
+        ),
+        (
+            "scenario = \"race.toml\"\n[robots.robot0]\ndevice = { kind = \"ardrone\" }\n",
+            "robots.robot0.device: kind = \"ardrone\" is for the model drone, and the scenario's robot is a holonomic",
+        ),
+        (
+            "scenario = \"race.toml\"\n[robots.robot0]\ndevice = { kind = \"create\", port = \"x\", generation = 3 }\n",
+            "robots.robot0.device.generation = 3: give 1 for the Create of 2007",
+        ),
+        (
+            "scenario = \"race.toml\"\n[robots.robot1]\nbody = \"robot0\"\n",
+            "robots.robot1.body: is \"robot0\", as robot0's",
+        ),
+        (
+            "scenario = \"race.toml\"\ntrace_limit_mib = 0\n",
+            "fleet.toml:2: invalid value: integer `0`",
         ),
     ];
     for (text, message) in cases {
