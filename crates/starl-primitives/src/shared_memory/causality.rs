@@ -18,11 +18,28 @@ use super::stamp::Stamp;
 use super::store::{Store, key};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
-use starl_core::Robot;
 use starl_core::event::SharedMemoryEvent;
+use starl_core::{Robot, Time};
 
-/// The writes that arrived before their dependencies, by the keys of their elements: the latest of each.
-pub(super) type Held = BTreeMap<u64, Write>;
+/// A robot asks for the dependencies of a write that it has held for this many times the time in which writes settle.
+///
+/// Comparisons ([`super::compare`]) are too rare for this where elements are written all the time and some links are
+/// down: a robot that cannot hear another one needs all that a third robot shows at one moment.
+const PATIENCE: u64 = 2;
+
+/// Until it has held the write for this many times that time, it asks often.
+const LONGEST_HASTE: u64 = 128;
+
+/// The writes that arrived before their dependencies, by the keys of their elements.
+pub(super) type Held = BTreeMap<u64, HeldWrite>;
+
+/// The latest write of an element whose writes are held back.
+#[derive(Clone, Debug)]
+pub(super) struct HeldWrite {
+    pub write: Write,
+    /// Since when writes of this element have been held back, by the robot's own clock.
+    pub since: Time,
+}
 
 impl Store {
     /// Whether all of these, or later ones, are shown.
@@ -58,7 +75,7 @@ impl SharedMemory {
     }
 
     /// Holds a write back if a dependency is missing; otherwise returns it.
-    pub(super) fn hold(&mut self, write: Write) -> Option<Write> {
+    pub(super) fn hold(&mut self, write: Write, now: Time) -> Option<Write> {
         let depends = write.depends.as_deref().unwrap_or_default();
         if self.store.covers(depends) {
             return Some(write);
@@ -74,12 +91,35 @@ impl SharedMemory {
             let count = write.depends.as_ref().map_or(0, Vec::len);
             (write.stamp, usize::MAX - count)
         };
-        let is_later = |held: &Write| order(held) < order(&write);
         let has_room = self.held.len() < self.options.most_elements;
-        if self.held.get(&key).map_or(has_room, is_later) {
-            self.held.insert(key, write);
+        match self.held.get_mut(&key) {
+            Some(held) if order(&held.write) < order(&write) => held.write = write,
+            None if has_room => drop(self.held.insert(key, HeldWrite { write, since: now })),
+            _ => {}
         }
         None
+    }
+
+    /// Asks the writer of a write that has been held for long for what is missing; whether it should ask again soon.
+    pub(super) fn ask(&mut self, robot: &mut Robot<'_>) -> bool {
+        let (now, me) = (robot.now(), robot.id());
+        let held_for = |times: u64| now - self.options.settling() * times;
+        let (soon, late) = (held_for(PATIENCE), held_for(LONGEST_HASTE));
+        let long_held = self.held.iter().filter(|(_, held)| held.since <= soon);
+        let of_others = long_held.filter(|(_, held)| held.write.stamp.writer != me);
+        let candidates: Vec<(u64, &HeldWrite)> =
+            of_others.map(|(&key, held)| (key, held)).collect();
+        if candidates.is_empty() {
+            return false;
+        }
+        let (key, held) = candidates[robot.random().below(candidates.len() as u32) as usize];
+        let depends = held.write.depends.iter().flatten();
+        let missing = depends.filter(|&dependency| !self.store.covers(&[*dependency]));
+        let wanted = core::iter::once(key).chain(missing.map(|dependency| dependency.key));
+        let (writer, wanted) = (held.write.stamp.writer, wanted.collect());
+        let is_urgent = held.since > late;
+        self.send_wanted(robot, writer, wanted);
+        is_urgent
     }
 
     /// The held writes whose dependencies are now complete. They must be shown together: two of them may depend on each
@@ -87,14 +127,15 @@ impl SharedMemory {
     pub(super) fn take_released(&mut self) -> Vec<Write> {
         let held = self.held.iter();
         let mut ready: BTreeMap<u64, Stamp> =
-            held.map(|(&key, write)| (key, write.stamp)).collect();
+            held.map(|(&key, held)| (key, held.write.stamp)).collect();
         loop {
             let is_covered = |needed: &Dependency| {
                 let shown = self.store.at(needed.key).map(|element| element.stamp);
                 shown.max(ready.get(&needed.key).copied()) >= Some(needed.stamp)
             };
             let lacks = |key: &u64| {
-                let depends = self.held.get(key).and_then(|write| write.depends.as_ref());
+                let held = self.held.get(key);
+                let depends = held.and_then(|held| held.write.depends.as_ref());
                 !depends.into_iter().flatten().all(is_covered)
             };
             let lacking: Vec<u64> = ready.keys().copied().filter(lacks).collect();
@@ -106,6 +147,9 @@ impl SharedMemory {
             }
         }
         let released = ready.into_keys();
-        released.filter_map(|key| self.held.remove(&key)).collect()
+        released
+            .filter_map(|key| self.held.remove(&key))
+            .map(|held| held.write)
+            .collect()
     }
 }

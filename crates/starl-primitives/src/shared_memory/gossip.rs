@@ -36,7 +36,6 @@ impl Gossip {
     /// Begins the next interval, twice as long; gives the time until the announcement.
     pub fn next(&mut self, options: &Options, random: &mut Random) -> Duration {
         let (shortest, longest) = options.intervals();
-        self.differing = None;
         let doubled = (self.interval * 2).max(shortest).min(longest);
         self.enter(doubled, random)
     }

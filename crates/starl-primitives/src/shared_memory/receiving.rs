@@ -49,7 +49,7 @@ impl SharedMemory {
                 && write.stamp.clock().is_valid();
             if is_ours {
                 self.clock.observe(write.stamp.clock());
-                if let Some(write) = self.hold(write) {
+                if let Some(write) = self.hold(write, robot.now()) {
                     self.merge_one(robot, write);
                 }
             }

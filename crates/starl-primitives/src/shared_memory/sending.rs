@@ -67,6 +67,7 @@ impl SharedMemory {
     pub(super) fn announce(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.store.refresh(now);
+        let differing = self.gossip.differing.take();
         if self.gossip.equal < self.options.redundancy.max(1) {
             let announcement = Announcement {
                 fingerprint: self.store.fingerprint(),
@@ -74,12 +75,15 @@ impl SharedMemory {
                 settled: self.is_settled(robot),
             };
             self.send(robot, Destination::All, Content::Announcement(announcement));
-            if let Some(peer) = self.gossip.differing {
+            if let Some(peer) = differing {
                 let whole = compare::describe(&self.store, Range::ALL);
                 self.send_parts(robot, peer, whole.into_iter().collect());
             }
         }
-        let after = self.gossip.next(&self.options, robot.random());
+        let after = match self.ask(robot) {
+            true => self.gossip.begin(&self.options, robot.random()),
+            false => self.gossip.next(&self.options, robot.random()),
+        };
         robot.set_timer(self.timer(Alarm::Gossip), after);
     }
 

@@ -219,3 +219,36 @@ fn writes_after_a_corruption_are_shown() {
         }
     }
 }
+
+/// Robots 0 and 1, and 2 and 3, hear each other in one direction only. While all write all the time, a robot can show
+/// the writes of the one that it does not hear only with all that a third one shows at one moment.
+#[test]
+fn writes_reach_robots_that_do_not_hear_the_writer_while_all_write_all_the_time() {
+    for seed in 0..10 {
+        let mut wire = Wire::perfect();
+        wire.loss = 0.3;
+        let mut world = world(4, seed, wire, 2);
+        world.wire.cut = [(0, 1), (2, 3)].into();
+        let mut shown = [[Time::ZERO; 4]; 4];
+        for round in 1..600 {
+            for writer in 0..4 {
+                world.command(writer, write_own(0, round));
+                world.command(writer, write_own(1, round));
+            }
+            world.run_for(Duration::from_millis(100));
+            for (reader, shown) in shown.iter_mut().enumerate() {
+                for (writer, last) in shown.iter_mut().enumerate() {
+                    let old = *last;
+                    let value = read_of(&world, reader, 0, writer as u32);
+                    let time = Duration::from_millis(100) * value.unwrap_or(0) as u64;
+                    *last = old.max(Time::ZERO + time);
+                    let lag = world.now.since(*last);
+                    assert!(
+                        lag < SECOND * 10,
+                        "seed {seed}: robot {reader} lags {lag} behind {writer}"
+                    );
+                }
+            }
+        }
+    }
+}
