@@ -222,7 +222,9 @@ impl Ending {
             (_, Err(error)) => format!("the file may be damaged: {error}"),
             (true, Ok(())) => format!("all up to {now} is kept in it"),
             (false, Ok(())) => {
-                format!("the run had come to {now}; its beginning, as far as it fits, is kept")
+                format!(
+                    "the run had come to {now}; its beginning, as far as it fits, is kept in it"
+                )
             }
         };
         Failure::file(

@@ -125,7 +125,7 @@ fn unreadable_files_are_reported_and_the_rest_checked() {
     assert!(stdout(&output).ends_with("1 file: 2 errors\n"));
     let text = stderr(&output);
     for expected in [
-        "error: missing.starl: cannot be read: there is no such file or folder",
+        "error: missing.starl: cannot be read: there is no such file; check the path",
         "error: latin.starl:2: is not text in UTF-8",
         "error: empty: there is no `.starl` file in this folder",
     ] {

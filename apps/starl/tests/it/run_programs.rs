@@ -321,7 +321,7 @@ fn other_files_are_rejected() {
         ),
         (
             &["run", "drive.starl", "--scenario", "no.toml"],
-            "no.toml: there is no example or scenario file",
+            "no.toml: cannot be read: there is no such file; check the path",
         ),
         (
             &["run", "drive.starl", "--scenario", "groups.toml"],
