@@ -82,7 +82,7 @@ fn each_type_is_written_in_its_way() {
     assert_eq!(shown("places"), "[(0.0, 1.0, 0.0), (2.0, 3.0, 4.0)]");
     assert_eq!(shown("kinds"), "{1, 3}");
     assert_eq!(shown("maybe"), "2.0");
-    assert_eq!(shown("bids"), "[(1.0, 1), (0.075, 0)]");
+    assert_eq!(shown("bids"), "[(1.0, robot1), (0.075, robot0)]");
 }
 
 #[test]
