@@ -29,7 +29,7 @@ pub struct Bytecode {
     pub types: Vec<ObjectType>,
     /// The imported functions of the host.
     pub imports: Vec<Import>,
-    /// State variables; their layout is that of the [`State`].
+    /// State variables; their layout is that of the [`State`](crate::machine::State).
     pub variables: Vec<Variable>,
     /// Functions, in the order of their code.
     pub functions: Vec<Function>,

@@ -25,7 +25,7 @@ use starl_core::RobotId;
 /// The limits of one activation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Units of fuel; see [`Instruction`](crate::machine::Instruction) for what costs how many.
+    /// Units of fuel; see [`Instruction`] for what costs how many.
     pub fuel: u64,
     /// Bytes that the state's objects and the values worked on may take together, counted as if
     /// nothing were shared.
