@@ -1,5 +1,5 @@
-//! Whatever a robot receives from its network, its device and its localisation, its runtime does not panic, and its
-//! positions and commands are finite numbers.
+//! The runtime of a robot does not panic, whatever arrives from the network, the device and the localisation. The robot's
+//! positions and commands remain finite numbers.
 //!
 //! The input is a list of events, each with a kind and its content. The robot has two others, a program with messages and
 //! primitives, and a network without keys, so that everything that a key would keep out arrives.

@@ -24,6 +24,9 @@ impl SharedValues {
     /// Notes the values in the records of a step. Call it after the step, while robots still hold them.
     pub fn look(&mut self, run: &Run, records: &[Record]) {
         for record in records {
+            if self.known.len() >= MOST {
+                return;
+            }
             let Event::Primitive { event, .. } = &record.event else {
                 continue;
             };
@@ -46,7 +49,7 @@ impl SharedValues {
             let program = run.simulation().program(robot).inspect();
             let program = program.and_then(|program| program.downcast_ref::<RobotProgram>());
             let value = program.and_then(|program| program.shared_value(variable, hash));
-            if let Some(value) = value.filter(|_| self.known.len() < MOST) {
+            if let Some(value) = value {
                 self.fresh.push((key.0.clone(), hash, value));
                 self.known.insert(key);
             }
