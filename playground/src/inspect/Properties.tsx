@@ -65,7 +65,9 @@ function Summary({ report }: { report: Report }) {
   useEffect(() => {
     if (playing || !live || fresh.value === now) return;
     // The digest of a moment costs time, so it is asked for when the moment stays.
-    const timer = setTimeout(() => void run.freshReport().then(() => (fresh.value = now)), 250);
+    const timer = setTimeout(async () => {
+      if (await run.refreshReport()) fresh.value = now;
+    }, 250);
     return () => clearTimeout(timer);
   }, [playing, live, now]);
   const { progress, messages } = report;

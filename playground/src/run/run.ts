@@ -221,11 +221,19 @@ export class Run {
     return this.client.ask<Uint8Array<ArrayBuffer>>({ trace: true });
   }
 
-  /** The present report, its digest up to date. */
-  async freshReport(): Promise<Report> {
-    const report = await this.client.ask<Report>({ report: true });
-    this.report.value = report;
-    return report;
+  /** Asks for the present report, its digest up to date; false if another run was opened meanwhile. */
+  async refreshReport(): Promise<boolean> {
+    const asked = this.opened.value;
+    const gone = () => this.opening.value || this.opened.value !== asked;
+    try {
+      const report = await this.client.ask<Report>({ report: true });
+      if (gone()) return false;
+      this.report.value = report;
+      return true;
+    } catch (error) {
+      if (!gone()) this.complain(error);
+      return false;
+    }
   }
 
   /** Shows what went wrong. */
