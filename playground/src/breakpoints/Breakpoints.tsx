@@ -14,7 +14,9 @@ const kind = signal("action");
 const name = signal("");
 const robot = signal("");
 const expression = signal("");
-const refusal = signal<{ text: string; expression: string; diagnostics: Diagnostic[] } | null>(null);
+const refusal = signal<{ kind: string; text: string; expression: string; diagnostics: Diagnostic[] } | null>(
+  null,
+);
 
 /** A list of more robots does not help. */
 const LISTED = 500;
@@ -102,7 +104,7 @@ function Form() {
       <button type="submit" disabled={made() === null}>
         Add
       </button>
-      {refusal.value && <Refusal />}
+      {refusal.value?.kind === kind.value && <Refusal />}
     </form>
   );
 }
@@ -214,7 +216,8 @@ async function put(list: Breakpoint[]): Promise<boolean> {
   } catch (error) {
     const diagnostics = error instanceof EngineError ? error.diagnostics : [];
     const text = error instanceof Error ? error.message : String(error);
-    refusal.value = { text, expression: kind.value === "when" ? expression.value : "", diagnostics };
+    const asked = kind.value === "when" ? expression.value : "";
+    refusal.value = { kind: kind.value, text, expression: asked, diagnostics };
     return false;
   }
 }

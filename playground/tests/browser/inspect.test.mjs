@@ -106,6 +106,35 @@ test("a robot crashes and restarts by its buttons", async () => {
   await end();
 });
 
+test("a run stops where an expression over all robots becomes true; a wrong breakpoint says what there is", async () => {
+  const { page, tab, play, end } = await example("race");
+  await tab("Breakpoints");
+  const panel = page.getByRole("tabpanel", { name: "Breakpoints" });
+  const add = panel.getByRole("button", { name: "Add", exact: true });
+  await panel.getByLabel("Name of the action").fill("jump");
+  await add.click();
+  await panel.getByRole("alert").getByText('no program of the scenario has the action "jump"').waitFor();
+  await panel.getByLabel("Stop at").selectOption("when");
+  await panel.getByRole("alert").waitFor({ state: "detached" });
+  await panel.getByLabel("Expression, as in").fill("exists r: r.currentIndx > 1");
+  await add.click();
+  await panel.getByRole("alert").getByText("currentIndex").last().waitFor();
+  await panel.getByLabel("Expression, as in").fill("exists r: r.currentIndex > 1");
+  await add.click();
+  const remove = panel.getByRole("button", { name: "Remove the breakpoint" });
+  await remove.waitFor();
+  const { height } = await remove.boundingBox();
+  assert.ok(height < 34, `the button's text stands on one line: ${height} px`);
+  await play();
+  await panel.getByText("(stopped here)").waitFor();
+  const stopped = Number.parseFloat(await page.locator(".clock").textContent());
+  assert.ok(stopped > 1 && stopped < 60, `stopped at ${stopped} s`);
+  await remove.click();
+  await page.locator(".play:enabled").click();
+  await page.locator(".transport .outcome.reached").waitFor();
+  await end();
+});
+
 test("messages are found by keyboard, with where they went", async () => {
   const { page, tab, play, over, end } = await example("messages");
   await play();
