@@ -5,7 +5,7 @@ use axum::body::Body;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
 use starl_catalog::disk::reason;
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use tokio::io::{AsyncWriteExt, DuplexStream};
@@ -21,14 +21,8 @@ struct File(Arc<Mutex<fs::File>>);
 
 impl File {
     fn create() -> Result<File, Failure> {
-        let path = std::env::temp_dir().join(format!("starl-view-{}.mcap", std::process::id()));
-        let mut options = OpenOptions::new();
-        options.read(true).write(true).create(true).truncate(true);
-        let file = options.open(&path).and_then(|file| {
-            fs::remove_file(&path)?;
-            Ok(file)
-        });
-        let file = file.map_err(|error| Failure::file(&path, reason(&error)))?;
+        let file = tempfile::tempfile()
+            .map_err(|error| Failure::file(&std::env::temp_dir(), reason(&error)))?;
         Ok(File(Arc::new(Mutex::new(file))))
     }
 
