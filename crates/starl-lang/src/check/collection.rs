@@ -137,6 +137,9 @@ impl Checker {
         form: &str,
     ) -> Expression {
         let problem = if let Some(ty) = expected {
+            if *ty == Type::Error {
+                return broken(span);
+            }
             let problem = Diagnostic::new(
                 Code::WrongType,
                 span,

@@ -25,8 +25,12 @@ impl Checker {
             return broken(Span::empty(0));
         };
         let span = expression.span();
-        // An error that was reported says nothing of what is expected.
-        let expected = expected.filter(|ty| !matches!(ty, Type::Error));
+        // An error that was reported says nothing of what is expected, but that no value's type is unclear.
+        let takes_its_type = matches!(
+            expression,
+            ast::Expression::Literal(_) | ast::Expression::List(_) | ast::Expression::Brace(_)
+        );
+        let expected = expected.filter(|ty| takes_its_type || !matches!(ty, Type::Error));
         let mark = (expression.is_closed_conjunction()).then(|| self.body.enter());
         let checked = self.infer_here(expression, span, expected);
         if let Some(mark) = mark {
@@ -158,6 +162,7 @@ impl Checker {
     fn none(&mut self, span: Span, expected: Option<&Type>) -> Expression {
         match expected {
             Some(ty @ Type::Optional(_)) => made(ExpressionKind::None, ty.clone(), span),
+            Some(Type::Error) => broken(span),
             Some(ty) => {
                 let problem =
                     Diagnostic::new(Code::WrongType, span, "`none` is not a value of this type");

@@ -120,6 +120,10 @@ impl Checker {
                 let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
                 problem.fix(number_of(span))
             }
+            (Type::Record(_), Type::Point) if self.text(span).starts_with('(') => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                problem.fix(around("write `Point(x, y)`", span, "Point", ""))
+            }
             (Type::Int | Type::Float, Type::Duration)
                 if matches!(
                     value.kind,

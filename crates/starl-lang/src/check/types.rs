@@ -50,8 +50,15 @@ const FOREIGN: &[(&str, &str)] = &[
     ("Position", "Point"),
     ("Robot", "RobotId"),
     ("array", "List"),
+    ("Array", "List"),
+    ("Vec", "List"),
     ("dict", "Map"),
+    ("HashMap", "Map"),
+    ("HashSet", "Set"),
 ];
+
+/// What other languages call a type of values that may be missing.
+const FOREIGN_OPTIONAL: [&str; 3] = ["Option", "Optional", "Maybe"];
 
 impl Checker {
     /// Gives all declarations except constants their types; a constant has that of its value.
@@ -180,6 +187,9 @@ impl Checker {
         }
         let ty = match words.get(1) {
             Some(name) => self.library_type(word, name),
+            None if arguments.len() == 1 && self.is_foreign_optional(word.text()) => {
+                return self.foreign_optional(named, word.text());
+            }
             None => self.type_by_name(word.text(), span),
         };
         if !arguments.is_empty() && ty != Type::Error {
@@ -187,6 +197,21 @@ impl Checker {
             self.error(Code::TypeArguments, named.span(), message);
         }
         ty
+    }
+
+    fn is_foreign_optional(&self, word: &str) -> bool {
+        let scope = &self.files[self.file as usize].scope;
+        FOREIGN_OPTIONAL.contains(&word) && !scope.contains_key(word)
+    }
+
+    /// Reports `Option[Int]`.
+    fn foreign_optional(&mut self, named: &ast::NamedType, word: &str) -> Type {
+        let inner = named.arguments().next().map(|inner| inner.span());
+        let meant = format!("{}?", inner.map_or("T", |inner| self.text(inner)));
+        let message = format!("there is no type `{word}`");
+        let problem = Diagnostic::new(Code::UnknownType, named.span(), message);
+        self.report(problem.replace(format!("write `{meant}`"), named.span(), meant));
+        Type::Error
     }
 
     fn collection_type(

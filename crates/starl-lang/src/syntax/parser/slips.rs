@@ -63,6 +63,8 @@ pub(super) fn foreign_declaration(word: &str) -> Option<&'static str> {
         "constant" | "final" => "const",
         "parameter" => "param",
         "persistent" | "durable" => "stable",
+        "property" | "safety" | "require" | "ensure" | "assert" => "invariant",
+        "liveness" => "eventually",
         _ => return closest(word, DECLARATIONS.iter().copied()),
     })
 }
