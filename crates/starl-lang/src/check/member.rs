@@ -12,7 +12,7 @@ use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
 use super::surroundings::Surroundings;
-use super::tables::{Member, Method, Signature};
+use super::tables::{Member, Method, PRIMITIVES, Primitive, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
 use crate::syntax::ast::{self, AstNode};
@@ -172,7 +172,16 @@ impl Checker {
             Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), at, *meant),
             None => did_you_mean(problem, at, name, names()),
         };
-        self.report(problem.note(format!("it has {}", listed(names()))));
+        let problem = problem.note(format!("it has {}", listed(names())));
+        let others = PRIMITIVES
+            .iter()
+            .filter(|other| other.member(name).is_some());
+        let others: Vec<&str> = others.map(Primitive::name).collect();
+        self.report(if others.is_empty() {
+            problem
+        } else {
+            problem.note(format!("`{name}` belongs to {}", listed(others)))
+        });
         None
     }
 

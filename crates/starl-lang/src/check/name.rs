@@ -324,6 +324,13 @@ impl Checker {
 const FOREIGN: &[(&str, &str)] = &[
     ("pid", "me"),
     ("self", "me"),
+    ("my_id", "me"),
+    ("robots", "peers"),
+    ("others", "peers"),
+    ("neighbors", "peers"),
+    ("neighbours", "peers"),
+    ("my_position", "position"),
+    ("pose", "position"),
     ("getId", "me"),
     ("getPos", "position"),
     ("getpos", "position"),
