@@ -7,8 +7,8 @@ use rowan::Checkpoint;
 use super::collection::{self, iteration};
 use super::expression::{self, Parsed, Shape, binary, condition, expression_parsed, power};
 use super::item::name;
-use super::types;
 use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*};
+use super::{slips, types};
 use crate::syntax::literal;
 
 /// Whether an operand other than a literal can begin so.
@@ -166,9 +166,20 @@ fn parenthesized(parser: &mut Parser<'_>) -> Parsed {
 /// `some x = optional`.
 fn some(parser: &mut Parser<'_>) -> Parsed {
     parser.start(SomeExpression);
+    let word = parser.span();
     parser.bump();
+    let name = parser.at(Identifier).then(|| parser.span());
     collection::pattern(parser);
-    let parsed = if parser.expect(Equal) {
+    let parsed = if let Some(name) = name
+        && (matches!(parser.current(), AndKeyword | OrKeyword | ThenKeyword)
+            || parser.at_line_end())
+    {
+        let meant = format!("{} != none", name.of(parser.text));
+        let fix = (&*format!("write `{meant}`"), &*meant);
+        let message = "`some x = ...` names the value that is there";
+        slips::foreign_operator(parser, word.to(name), message, fix);
+        Parsed::BROKEN
+    } else if parser.expect(Equal) {
         binary(parser, power::COMPARISON)
     } else {
         Parsed::BROKEN
