@@ -22,9 +22,6 @@ setup:
 check:
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets --all-features -- --deny warnings
-	cargo fmt --manifest-path fuzz/Cargo.toml --check
-	cargo clippy --locked --manifest-path fuzz/Cargo.toml --target-dir $(CARGO_TARGET_DIR) --no-default-features --features ros2 \
-		-- --deny warnings
 	$(VENV)/typos
 
 unit:
@@ -207,6 +204,6 @@ bench: $(RELEASE) wasm-module
 # example of starl-trace too.
 .PHONY: $(STARL) $(RELEASE)
 $(STARL):
-	cargo build --locked --profile test --workspace --features starl/zenoh --bins --examples
+	cargo build --locked --profile test --workspace --exclude starl-fuzz --features starl/zenoh --bins --examples
 $(RELEASE):
 	cargo build --locked --release
