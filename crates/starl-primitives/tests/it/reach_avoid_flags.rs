@@ -176,7 +176,7 @@ fn a_new_call_replaces_the_one_under_way() {
     assert_eq!(bench.flags(), DONE);
 }
 
-/// A robot that had arrived was blown away, and was `done` all the same.
+/// A robot that had arrived was blown away, and was still `done`.
 #[test]
 fn wind_that_blows_it_off_the_target_that_it_holds_is_a_failure() {
     let mut bench = bench();
