@@ -179,7 +179,8 @@ fn idle(text: &mut String, robots: &[Robot], moves: bool) -> fmt::Result {
             "never sent a message" => true,
             _ => false,
         };
-        if !names.is_empty() && !(is_expected && names.len() == robots.len()) {
+        let is_expected = is_expected && names.len() == robots.len();
+        if !names.is_empty() && !is_expected {
             writeln!(text, "{what}: {}", listed(&names))?;
         }
     }
