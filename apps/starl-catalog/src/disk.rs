@@ -12,21 +12,10 @@ const LARGEST: u64 = 256 << 20;
 ///
 /// # Errors
 /// If there is no such file, it is a folder or a device, is larger than 256 MiB, or cannot be read.
-#[allow(
-    clippy::disallowed_methods,
-    reason = "only front ends that have a disk hand this in"
-)]
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let read = || {
         let mut bytes = Vec::new();
-        // Opening a pipe would wait for its writer.
-        let kind = std::fs::metadata(path)?;
-        if !kind.is_file() && !kind.is_dir() {
-            return Err(io::Error::other("it is not an ordinary file"));
-        }
-        File::open(path)?
-            .take(LARGEST + 1)
-            .read_to_end(&mut bytes)?;
+        open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
         Ok(bytes)
     };
     let bytes = read().map_err(|error: io::Error| match error.kind() {
@@ -37,6 +26,22 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
         true => Err(FileError::Unreadable("it is larger than 256 MiB".into())),
         false => Ok(bytes),
     }
+}
+
+/// Opens a file for reading. Refuses pipes and devices: opening a pipe would wait for its writer.
+///
+/// # Errors
+/// If there is no such file, it is a pipe or a device, or it cannot be read.
+#[allow(
+    clippy::disallowed_methods,
+    reason = "only front ends that have a disk hand this in"
+)]
+pub fn open(path: &Path) -> io::Result<File> {
+    let kind = std::fs::metadata(path)?;
+    if !kind.is_file() && !kind.is_dir() {
+        return Err(io::Error::other("it is not an ordinary file"));
+    }
+    File::open(path)
 }
 
 /// The reason of a failure with a file, in words.

@@ -116,6 +116,7 @@ impl CommandLine {
             Ok(arguments) => arguments,
             Err(error) => return refuse(&error),
         };
+        output::fail_beyond_size_limit();
         let registry = &self.registry;
         let result = match &arguments.command {
             Command::Explore(arguments) => return exit(explore::run(arguments, registry)),

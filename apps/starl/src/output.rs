@@ -10,6 +10,17 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// Lets a write beyond the limit of file sizes (`ulimit -f`) fail like one to a full disk. By default its signal ends the
+/// process, without a message and without the end of a trace.
+pub fn fail_beyond_size_limit() {
+    #[cfg(unix)]
+    {
+        let is_over = std::sync::Arc::default();
+        // Where the signal cannot be caught, the process still ends.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, is_over);
+    }
+}
+
 /// A file in the making. It is thrown away unless [`Output::commit`] is called.
 #[derive(Debug)]
 pub struct Output {

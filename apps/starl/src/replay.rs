@@ -8,7 +8,7 @@ use crate::console::{self, grouped};
 use crate::failure::Failure;
 use crate::report::Ending;
 use crate::{run, threads};
-use starl_catalog::disk::reason;
+use starl_catalog::disk::{self, reason};
 use starl_catalog::programs::Registry;
 use starl_catalog::{Application, recording};
 use starl_core::{Event, Intervention, Record, Time};
@@ -56,7 +56,7 @@ pub fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
     if path.is_dir() {
         return Err(Failure::file(path, "is a folder; name the trace in it"));
     }
-    let file = File::open(path).map_err(|error| {
+    let file = disk::open(path).map_err(|error| {
         Failure::file(
             path,
             format!("cannot be read: {}; check the path", reason(&error)),

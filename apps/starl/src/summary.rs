@@ -73,7 +73,16 @@ fn write(text: &mut String, report: &Report) -> fmt::Result {
         0..=MOST_ROBOTS_LISTED => robots(text, &report.robots)?,
         _ => models(text, &report.robots)?,
     }
-    idle(text, &report.robots)?;
+    // Robots without a command to move are as they should be, if nothing is wrong.
+    let moves = report.properties.iter().any(|property| {
+        let is_motion = property.property.starts_with("reach_avoid.");
+        match property.verdict {
+            UNUSED => false,
+            "holds" => is_motion,
+            _ => true,
+        }
+    });
+    idle(text, &report.robots, moves)?;
     if !report.properties.is_empty() {
         writeln!(text)?;
         properties(text, &report.properties)?;
@@ -144,8 +153,8 @@ fn robots(text: &mut String, robots: &[Robot]) -> fmt::Result {
     Ok(())
 }
 
-/// Robots that have done less than the others: that never moved, gave up a target, or never sent.
-fn idle(text: &mut String, robots: &[Robot]) -> fmt::Result {
+/// Robots that never moved, gave up a target, or never sent. `moves` says whether a fleet that stands still is remarkable.
+fn idle(text: &mut String, robots: &[Robot], moves: bool) -> fmt::Result {
     let some = |is: &dyn Fn(&Robot) -> bool| {
         let mut names = Vec::new();
         names.extend(
@@ -164,9 +173,14 @@ fn idle(text: &mut String, robots: &[Robot]) -> fmt::Result {
         ("never sent a message", silent),
         ("gave up a target", gave_up),
     ] {
-        // Where no robot moves or sends, the program is not made for it.
-        let is_all = names.len() == robots.len() && what != "gave up a target";
-        if !names.is_empty() && !is_all {
+        // Where no robot moves or sends, the program is often not made for it.
+        let is_expected = match what {
+            "never moved" => !moves,
+            "never sent a message" => true,
+            _ => false,
+        };
+        let is_expected = is_expected && names.len() == robots.len();
+        if !names.is_empty() && !is_expected {
             writeln!(text, "{what}: {}", listed(&names))?;
         }
     }

@@ -85,6 +85,9 @@ fn warn(application: &Application, origin: &Origin) {
         let text = findings.render(&origin.name(findings), console::colour_of_errors());
         console::complain(&text);
     }
+    for (field, reason) in application.scenario().idle_fields() {
+        console::complain(&format!("warning: {field}: {reason}\n"));
+    }
     let network = &application.scenario().network;
     if let Some(delay) = network.too_short_delays().next() {
         let resolution = network.resolution;

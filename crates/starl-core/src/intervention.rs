@@ -84,6 +84,12 @@ pub enum Intervention {
     Leave(Vec<RobotId>),
 }
 
+/// Whether a robot may have this name, which becomes part of file names: it is not blank, and has neither `/` nor control
+/// characters.
+pub fn is_robot_name(name: &str) -> bool {
+    !name.trim().is_empty() && !name.contains(|c: char| c.is_control() || c == '/')
+}
+
 impl Intervention {
     /// Whether a scenario file could say it: places are finite, shapes have an extent, probabilities are from 0
     /// to 1, ranges and bandwidths are above 0, names are not blank, and it concerns at least one robot. No robot
@@ -131,7 +137,7 @@ impl Intervention {
                 is_named(&order.name) && order.fields.iter().all(says)
             }
             Intervention::Join { pose, name, .. } => {
-                is_named(name) && pose.position.is_finite() && pose.yaw.is_finite()
+                is_robot_name(name) && pose.position.is_finite() && pose.yaw.is_finite()
             }
         }
     }

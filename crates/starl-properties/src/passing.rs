@@ -70,14 +70,26 @@ impl Way {
     fn through(&self, other: &Way) -> f64 {
         let apart = self.from - other.from;
         let motion = (self.to - other.to) - apart;
-        let speed_squared = motion.x * motion.x + motion.y * motion.y;
-        let closing = -(apart.x * motion.x + apart.y * motion.y);
-        let part = match speed_squared > 0.0 {
+        let gap_at = |part: f64| gap((&self.body, self.at(part)), (&other.body, other.at(part)));
+        let nearest = |closing: f64, speed_squared: f64| match speed_squared > 0.0 {
             true => (closing / speed_squared).clamp(0.0, 1.0),
             false => 0.0,
         };
-        let (here, there) = ((&self.body, self.at(part)), (&other.body, other.at(part)));
-        gap(here, there) + self.slack + other.slack
+        let planar = nearest(
+            -(apart.x * motion.x + apart.y * motion.y),
+            motion.x * motion.x + motion.y * motion.y,
+        );
+        let mut least = gap_at(planar);
+        if motion.z != 0.0 {
+            // The gap is the greater of those in the plane and of the heights, so it is least between the places where
+            // these are.
+            let middles = apart.z + 0.5 * (self.body.height - other.body.height);
+            let upright = nearest(-middles * motion.z, motion.z * motion.z);
+            let places =
+                (1..=16).map(|sample| planar + (upright - planar) * f64::from(sample) / 16.0);
+            least = places.map(gap_at).fold(least, f64::min);
+        }
+        least + self.slack + other.slack
     }
 }
 

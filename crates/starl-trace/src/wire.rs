@@ -9,9 +9,6 @@ use starl_core::event::MarkShape;
 use starl_core::geometry::HeightSpan;
 use starl_core::{Area, ConvexPolygon, Fields, Point, RobotId, Shape, Time, Value};
 
-/// More corners than any real obstacle has; checking a polygon takes time with their square.
-const MOST_CORNERS: usize = 4096;
-
 /// One detail of an event.
 #[derive(Deserialize)]
 pub(crate) struct Field {
@@ -174,10 +171,5 @@ pub(crate) fn obstacles(list: Vec<Obstacle>) -> Result<Vec<starl_core::Obstacle>
 }
 
 fn polygon(points: &[Point]) -> Result<ConvexPolygon, Malformed> {
-    if points.len() > MOST_CORNERS {
-        return Err(Malformed(format!(
-            "a polygon has more than {MOST_CORNERS} corners"
-        )));
-    }
     ConvexPolygon::new(points).map_err(|error| Malformed(error.to_string()))
 }

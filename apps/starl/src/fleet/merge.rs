@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::output::create_now;
 use crate::replay::{open, unreadable};
 use endings::{Ending, Endings, Span};
-use starl_catalog::disk::reason;
+use starl_catalog::disk::{self, reason};
 use starl_catalog::programs::Registry;
 use starl_core::event::{Event, Fault};
 use starl_core::{Duration, RobotId, Time};
@@ -169,7 +169,7 @@ fn leave_out_empty(
 ) -> Result<(), Failure> {
     for path in std::mem::take(paths) {
         let cannot = |error| Failure::file(&path, reason(&error));
-        let file = File::open(&path).map_err(cannot)?;
+        let file = disk::open(&path).map_err(cannot)?;
         let is_begun = file.metadata().map_err(cannot)?.len() >= MAGIC;
         match Reader::new(BufReader::new(file)) {
             Err(error @ TraceError::Truncated(_)) => cut.push((path, Time::ZERO, error)),

@@ -268,6 +268,84 @@ fn special_files_are_rejected() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_pipe_as_trace_is_not_waited_for() {
+    let folder = folder("pipe_as_trace");
+    let pipe = folder.join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    for command in ["verify", "replay"] {
+        refused(
+            &folder,
+            &[command, "pipe"],
+            &["pipe", "not an ordinary file"],
+        );
+    }
+}
+
+#[test]
+fn fields_without_the_field_that_they_need_are_pointed_out() {
+    let folder = folder("idle_fields");
+    let said = |set: &str| {
+        stderr(&starl(
+            &folder,
+            &["run", "mutex", "--duration", "1s", "--set", set],
+        ))
+    };
+    for (set, field, needed) in [
+        ("network.queue=2s", "network.queue", "network.bandwidth"),
+        (
+            "network.reordering_delay=1s",
+            "network.reordering_delay",
+            "network.reordering",
+        ),
+        (
+            "network.resolution=30ms",
+            "network.resolution",
+            "physics.step",
+        ),
+        ("trace.pose_period=1ms", "trace.pose_period", "physics.step"),
+        ("wind.steady=[3,0]", "wind", "no robot of the fleet flies"),
+        ("wind.gust_period=3s", "wind.gust_period", "wind.gust"),
+        (
+            "motion.noise_period=1s",
+            "motion.noise_period",
+            "motion.speed_noise",
+        ),
+        ("storage.loss=1", "storage.loss", "storage.kept"),
+        (
+            "fault_rates.restart_after=3s",
+            "fault_rates.restart_after",
+            "fault_rates.crash",
+        ),
+        (
+            "fault_rates.heal_after=3s",
+            "fault_rates.heal_after",
+            "fault_rates.partition",
+        ),
+        (
+            "fault_rates.repair_after=3s",
+            "fault_rates.repair_after",
+            "fault_rates.stuck_motor",
+        ),
+    ] {
+        let text = said(set);
+        assert!(
+            text.contains(&format!("warning: {field}: ")),
+            "{set}: {text}"
+        );
+        assert!(text.contains(needed), "{set}: {text}");
+    }
+    for set in [
+        "network.loss=0.1",
+        "fault_rates.crash=0.1/s",
+        "network.queue=1s",
+    ] {
+        assert_eq!(said(set), "", "{set}");
+    }
+}
+
+#[test]
 fn a_fleet_beyond_the_limit_is_refused_before_it_is_placed() {
     let folder = folder("huge_fleet");
     let group = "[[robots]]\nmodel = \"create\"\ncount = 10000000\n";

@@ -191,3 +191,30 @@ fn a_trace_that_was_saved_on_the_way_is_the_same() {
     assert!(a == b, "the traces differ");
     assert_eq!(status(&starl(&folder, &["replay", "a.mcap"])), 0);
 }
+
+/// The limit's signal ended the process, with half a chunk in the file that nothing could read.
+#[test]
+fn beyond_the_limit_of_file_sizes_the_beginning_is_kept() {
+    let folder = folder("size_limit");
+    for kibibytes in [100, 1000] {
+        // The shell counts in blocks of 512 bytes.
+        let run = format!(
+            "ulimit -f {}; exec {} run race --robots create=12 --seed 3 --quiet --trace a.mcap",
+            2 * kibibytes,
+            env!("CARGO_BIN_EXE_starl")
+        );
+        let output = Command::new("sh")
+            .current_dir(&folder)
+            .args(["-c", &run])
+            .output();
+        let output = output.expect("there is a shell");
+        assert_eq!(status(&output), 2, "{}", stderr(&output));
+        assert!(stderr(&output).contains("a.mcap: the trace cannot be written"));
+        let replayed = stdout(&starl(&folder, &["replay", "a.mcap"]));
+        assert!(
+            replayed.contains("identical as far as the trace goes: "),
+            "{replayed}"
+        );
+        assert!(!replayed.contains("before the first record"), "{replayed}");
+    }
+}

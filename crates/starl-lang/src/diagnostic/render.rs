@@ -21,7 +21,7 @@ pub enum Colour {
 }
 
 /// The most diagnostics shown of a file. Users read only the first ones, and a fix often removes several.
-const MOST: usize = 100;
+const MOST: usize = 20;
 
 /// The diagnostics of one file in the order given, each as a few lines with an empty one after it. Lines that are too
 /// long for a screen are cut. `name` is the name of the file in the text.

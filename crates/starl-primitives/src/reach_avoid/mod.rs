@@ -7,7 +7,8 @@
 //! half the vicinity, a path of some width exists):
 //! - safety: the robot's position stays outside the unsafe set; where it does not, it has failed;
 //! - goal: when it is done the robot has been within the vicinity of the target;
-//! - wind: where it is stronger than the robot can hold against, the command has failed;
+//! - wind: where it is stronger than the robot can hold against, the command has failed, also when it was done
+//!   and the robot holds its target;
 //! - progress: it is not active for ever. In each [`Options::stuck_after`] the way ahead shrinks by
 //!   [`Options::least_progress`] or a re-plan is spent; there are [`Options::most_replans`] of them.
 //!
@@ -243,6 +244,13 @@ impl ReachAvoid {
         self.command.take().is_some()
     }
 
+    /// The wind is stronger than the robot can hold against.
+    fn blown_away(&mut self, robot: &mut Robot<'_>) {
+        self.done = false;
+        self.give_up(robot, Trouble::Wind);
+        self.failed = true;
+    }
+
     /// The one timer: what it is for depends on the phase.
     fn timer(&self) -> TimerKey {
         TimerKey::new(self.port, Alarm::TimeOut)
@@ -258,7 +266,13 @@ impl Primitive for ReachAvoid {
         if matches!(input, Input::Activate) {
             return self.look_ahead(robot);
         }
-        let Some(command) = &self.command else { return };
+        let Some(command) = &self.command else {
+            // The robot holds its target, and is blown off it.
+            if self.done && matches!(input, Input::Overpowered) {
+                self.blown_away(robot);
+            }
+            return;
+        };
         match input {
             Input::Estimate => self.located(robot),
             Input::Timer(key) if *key == self.timer() => self.timed_out(robot),
@@ -267,10 +281,7 @@ impl Primitive for ReachAvoid {
             {
                 self.planned(robot, path.as_ref());
             }
-            Input::Overpowered => {
-                self.give_up(robot, Trouble::Wind);
-                self.failed = true;
-            }
+            Input::Overpowered => self.blown_away(robot),
             _ => {}
         }
     }

@@ -2,7 +2,8 @@
 //! at the target, failed in the unsafe set, and none of them once it has given up.
 
 use crate::harness::pilot::{AIR, Bench, block, p};
-use starl_core::Point;
+use starl_core::event::moving::Trouble;
+use starl_core::{Input, Point};
 use starl_primitives::reach_avoid::Options;
 
 const ACTIVE: (bool, bool, bool) = (true, false, false);
@@ -173,4 +174,20 @@ fn a_new_call_replaces_the_one_under_way() {
     assert_eq!(bench.flags(), ACTIVE);
     bench.at(p(0.0, 2.0));
     assert_eq!(bench.flags(), DONE);
+}
+
+/// A robot that had arrived was blown away, and was still `done`.
+#[test]
+fn wind_that_blows_it_off_the_target_that_it_holds_is_a_failure() {
+    let mut bench = bench();
+    bench.input(Input::Overpowered);
+    assert_eq!(bench.flags(), NONE, "it was sent nowhere");
+    bench.go(p(2.0, 0.0), [].into());
+    bench.at(p(2.0, 0.0));
+    assert_eq!(bench.flags(), DONE);
+    bench.input(Input::Overpowered);
+    assert_eq!(bench.flags(), FAILED);
+    assert_eq!(bench.reach_avoid.reason(), Some(Trouble::Wind));
+    bench.input(Input::Overpowered);
+    assert_eq!(bench.events, ["start", "done", "give_up"]);
 }

@@ -407,3 +407,19 @@ fn a_robot_that_turns_back_between_two_poses_has_passed_nothing() {
     story.walks(500, 1000, 0, at(7.0, 0.5), at(7.0, 4.0));
     assert_none(&story.verdict(1200));
 }
+
+/// Only the place where they were nearest in the floor plane was looked at: here the start of the way.
+#[test]
+fn drones_that_pass_each_other_upright_have_passed_through_each_other() {
+    for (aside, passes) in [(0.0, true), (0.65, false)] {
+        let mut story = Story::of(&[FLYER, FLYER]);
+        let place = |x: f64, height: f64| Point::new(x, 0.0, height);
+        story.walks(0, 1000, 0, place(0.0, 1.0), place(0.0, 21.0));
+        story.walks(0, 1000, 1, place(aside, 22.0), place(aside, 2.0));
+        let verdict = story.verdict(1200);
+        match passes {
+            true => assert_only(&verdict, "no_collision", 600, &[0, 1]),
+            false => assert_none(&verdict),
+        }
+    }
+}

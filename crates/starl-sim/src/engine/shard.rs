@@ -14,7 +14,7 @@ use starl_core::event::Hit;
 use starl_core::{Command, Event, Point, Random, RobotId, Time, math, sensor};
 use starl_host::Workspace;
 use starl_host::journal::Journal;
-use starl_motion::contact::Contacts;
+use starl_motion::contact::{self, Contacts};
 use starl_motion::sensing::Readings;
 use starl_motion::{Neighbour, State};
 
@@ -28,6 +28,8 @@ pub struct Shard {
     pub members: Vec<SimulatedRobot>,
     pub states: Vec<State>,
     pub predicted: Vec<State>,
+    /// The greatest [bend](contact::bend) of a predicted path, metres.
+    pub bend: f64,
     pub outbox: Vec<Outgoing>,
     /// The requests of robots to their grippers in this step.
     pub grips: Vec<Grip>,
@@ -137,8 +139,9 @@ impl Shard {
         self.find_earliest();
     }
 
-    /// Predicts the motion of each robot in a step; `next` receives the predicted positions.
+    /// Predicts the motion of each robot in a part of a step; `next` receives the predicted positions.
     pub fn predict(&mut self, shared: &Shared, window: Window, next: &mut [Point]) {
+        self.bend = 0.0;
         for (index, member) in self.members.iter().enumerate() {
             let (kind, state) = (&shared.kinds[member.group as usize], &self.states[index]);
             let predicted = &mut self.predicted[index];
@@ -155,6 +158,8 @@ impl Shard {
                 let disturbance = shared.disturbance(member.id(), window.from);
                 let elapsed = window.to.since(window.from);
                 *predicted = kind.model.predict(state, &command, &disturbance, elapsed);
+                let bend = contact::bend(state.pose.position, predicted, elapsed.seconds());
+                self.bend = self.bend.max(bend);
             }
             next[index] = predicted.pose.position;
         }
@@ -179,11 +184,11 @@ impl Shard {
         member.node.corrupt(at, random, &mut outlet);
     }
 
-    /// Moves each robot to where it was predicted, or lets it be stopped, and shows where it is.
+    /// Moves each robot to where it was predicted in a part of the step, or lets it be stopped, and shows where it is.
     pub fn settle(
         &mut self,
         shared: &Shared,
-        window: Window,
+        (step, part): (Window, Window),
         contacts: &Contacts,
         bodies: &mut [Neighbour],
         perceived: &mut [Neighbour],
@@ -205,15 +210,19 @@ impl Shard {
             if let Some(seen) = perceived.get_mut(index) {
                 *seen = member.perceived(body);
             }
-            member.senses.contact = impact.map(|impact| sensor::Contact {
+            let contact = impact.map(|impact| sensor::Contact {
                 bearing: math::wrap_angle(impact.direction.heading() - state.pose.yaw),
             });
+            // The bumper shows the last contact of the step.
+            if contact.is_some() || part.from == step.from {
+                member.senses.contact = contact;
+            }
             if hit != member.senses.touching {
                 member.senses.touching = hit;
                 if let Some(with) = hit {
                     let event = Event::Collided { with };
                     let digest = &mut member.account.digest;
-                    self.log.record(digest, member.node.id(), window.to, event);
+                    self.log.record(digest, member.node.id(), part.to, event);
                     // Two robots that meet are one collision, not two.
                     let counted_there = matches!(with, Hit::Robot(other)
                         if other < member.id() && contacts.of(other)
@@ -221,11 +230,12 @@ impl Shard {
                     self.log.tally.collisions += u64::from(!counted_there);
                 }
             }
-            if member.next_pose_record <= window.to && !member.is_gone {
+            let is_due = part.to == step.to && member.next_pose_record <= step.to;
+            if is_due && !member.is_gone {
                 member.next_pose_record += shared.scenario.trace.pose_period;
                 let event = Event::Moved(state.pose);
                 let digest = &mut member.account.digest;
-                self.log.record(digest, member.node.id(), window.to, event);
+                self.log.record(digest, member.node.id(), step.to, event);
             }
         }
     }

@@ -19,9 +19,12 @@ use starl_core::{
 };
 use starl_host::Node;
 use starl_host::journal::{Batch, Journal};
-use starl_motion::contact::{Contact, Contacts, Motions};
+use starl_motion::contact::{self, Contact, Contacts, Motions};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
+
+/// Parts of a step are not shorter than this.
+const SHORTEST_PART: Duration = Duration(10_000);
 
 /// A running scenario. A clone continues exactly as the original would.
 #[derive(Clone)]
@@ -189,14 +192,12 @@ impl Simulation {
         if window.from >= self.next_expiry {
             self.raise_obstacles();
         }
-        self.shared.wind = wind(&self.shared.scenario, window.from);
         if self.have_moved() {
             self.index_robots();
         }
         self.act(window);
         self.grip();
-        self.collide();
-        self.settle(window);
+        self.advance(window);
         self.now = window.to;
         self.collect();
     }
@@ -262,11 +263,45 @@ impl Simulation {
                 posted.clear();
             }
         }
+    }
+
+    /// Moves the bodies. A step in which paths bend is taken in parts whose lengths follow from the paths.
+    fn advance(&mut self, step: Window) {
+        let mut part = step;
+        loop {
+            self.shared.wind = wind(&self.shared.scenario, part.from);
+            let length = part.to.since(part.from);
+            let parts = contact::parts(self.predict(part));
+            if parts > 1 && length > SHORTEST_PART && self.shared.scenario.physics.collisions {
+                part.to = part.from + Duration(length.0 / parts).max(SHORTEST_PART);
+                continue;
+            }
+            self.collide();
+            self.settle(step, part);
+            if part.to == step.to {
+                return;
+            }
+            if self.have_moved() {
+                self.index_robots();
+            }
+            part = Window {
+                from: part.to,
+                to: step.to.min(part.to + length * 2),
+            };
+        }
+    }
+
+    /// Predicts the motion of all robots in a part of the step. Returns the greatest bend of a path, metres.
+    fn predict(&mut self, part: Window) -> f64 {
         let shared = &self.shared;
         let work = self.shards.iter_mut().zip(self.next.chunks_mut(SIZE));
         run(self.parallel, work, |(shard, next)| {
-            shard.predict(shared, window, next);
+            shard.predict(shared, part, next);
         });
+        self.shards
+            .iter()
+            .map(|shard| shard.bend)
+            .fold(0.0, f64::max)
     }
 
     /// Lets the robots to which something happens in a slot take their inputs, and routes what they send.
@@ -304,7 +339,7 @@ impl Simulation {
         self.contacts.settle(&motions, found);
     }
 
-    fn settle(&mut self, window: Window) {
+    fn settle(&mut self, step: Window, part: Window) {
         let mut perceived = std::mem::take(&mut self.shared.perceived);
         let (shared, contacts) = (&self.shared, &self.contacts);
         let shown = perceived
@@ -320,7 +355,7 @@ impl Simulation {
         run(self.parallel, work, |(shard, bodies, perceived)| {
             shard.settle(
                 shared,
-                window,
+                (step, part),
                 contacts,
                 bodies,
                 perceived.unwrap_or_default(),

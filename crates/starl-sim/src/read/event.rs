@@ -1,5 +1,6 @@
 //! Reads `event`: interventions and their times.
 
+use super::fleet::robot_name;
 use super::names::Names;
 use super::report::{Origin, Report};
 use super::schema::KNOB_NAMES;
@@ -237,7 +238,7 @@ fn what(table: Section<'_>, names: &Names, kind: &str) -> Option<Intervention> {
             Intervention::Tell { robots, order }
         }
         "join" => {
-            let (like, name) = (names.robot(table, "like"), name());
+            let (like, name) = (names.robot(table, "like"), robot_name(table));
             let (position, heading) = (table.point("position"), table.number("heading"));
             Intervention::Join {
                 like: like?,

@@ -7,6 +7,7 @@ use super::section::Section;
 use super::{Placed, start};
 use crate::fields::FieldTable;
 use crate::scenario::{Bounds, Clock, Fleet, Group, Parameter, SensorSuite};
+use starl_core::intervention::is_robot_name;
 use starl_core::{Duration, Pose};
 use starl_motion::Model;
 use std::collections::BTreeMap;
@@ -74,6 +75,19 @@ pub(super) fn read(root: Section<'_>, robots: Option<&str>) -> Vec<Draft> {
     drafts
 }
 
+/// The field `name` of a group or of a robot that joins.
+pub(super) fn robot_name(table: Section<'_>) -> Option<String> {
+    let name = table.text("name");
+    if let Some(name) = &name
+        && !is_robot_name(name)
+    {
+        let message = format!("{name:?} cannot be the name of a robot");
+        let help = "leave out `/` and control characters: robots' names become parts of file names";
+        table.problem("name", message, help);
+    }
+    name
+}
+
 fn draft(
     table: Section<'_>,
     program: Option<&str>,
@@ -89,14 +103,7 @@ fn draft(
         );
         table.problem("start", message, "leave some out, or raise `count`");
     }
-    let name = table.text("name");
-    if let Some(name) = &name
-        && name.contains(|c: char| c.is_control() || c == '/')
-    {
-        let message = format!("{name:?} cannot be the name of a robot");
-        let help = "leave out `/` and control characters: robots' names become parts of file names";
-        table.problem("name", message, help);
-    }
+    let name = robot_name(table);
     let numbered = table.flag("numbered");
     if !numbered && count > 1 {
         let message = format!("{count} robots cannot all have the same name");

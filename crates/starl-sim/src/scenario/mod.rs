@@ -5,6 +5,7 @@
 mod event;
 mod fault;
 mod fleet;
+mod idle;
 mod network;
 mod properties;
 mod sensors;

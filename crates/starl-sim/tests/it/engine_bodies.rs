@@ -290,3 +290,38 @@ impl Program for Rebound {
         });
     }
 }
+
+/// A robot on a circle of 2 m touches a wall at its far side. Only the straight line from the start to the end of a step
+/// was looked at, which does not reach the wall.
+#[test]
+fn fast_robots_in_a_curve_do_not_pass_through_a_wall_beside_their_chord() {
+    for speed in [2.0, 5.0, 20.0, 50.0] {
+        for millis in [1, 25, 100, 1000] {
+            for wall_at in [1.9, 2.0, 2.1, 2.16] {
+                let mut scenario = scenario("create", &[(0.0, 0.0)]);
+                let parameters = starl_motion::models::CreateParameters {
+                    wheel_speed: 100.0,
+                    ..Default::default()
+                };
+                let model = starl_motion::models::Create::new(parameters).expect("a valid model");
+                scenario.fleet.groups[0].model = std::sync::Arc::new(model);
+                scenario.physics.step = starl_core::Duration::from_millis(millis);
+                let ends = [Point::planar(wall_at, -5.0), Point::planar(wall_at, 9.0)];
+                let wall = starl_core::geometry::ConvexPolygon::new(&ends).expect("a wall");
+                let wall = obstacle(Obstacle::polygon(wall));
+                scenario.world.obstacles.push(wall);
+                let curve = Command::Curve { speed, radius: 2.0 };
+                let mut simulation = simulate(scenario, Drive(curve));
+                let records = run(&mut simulation, 6.0);
+                let told = format!("{speed} m/s, steps of {millis} ms, wall at {wall_at} m");
+                let hit = (RobotId(0), Hit::Obstacle(0));
+                assert!(collisions(&records).contains(&hit), "{told}");
+                for record in &records {
+                    if let Event::Moved(pose) = &record.event {
+                        assert!(pose.position.x + 0.165 <= wall_at, "{told}: {pose:?}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -104,3 +104,20 @@ fn a_full_disk_is_an_error_not_a_panic() {
         }
     }
 }
+
+/// A scenario may have such an obstacle, and its trace was called damaged.
+#[test]
+fn a_polygon_of_many_corners_is_read_back() {
+    let corner =
+        |index: u32| starl_core::Point::polar(1e3, f64::from(index) * std::f64::consts::TAU / 2e4);
+    let corners: Vec<starl_core::Point> = (0..20_000).map(corner).collect();
+    let polygon = starl_core::ConvexPolygon::new(&corners).unwrap();
+    assert!(polygon.vertices().len() > 10_000);
+    let header = Header {
+        obstacles: vec![starl_core::Obstacle::polygon(polygon)],
+        ..common::header()
+    };
+    let writer = Writer::new(Vec::new(), &header, &ViewOptions::default()).unwrap();
+    let trace = read(&writer.finish(&Outcome::default()).unwrap()).unwrap();
+    assert_eq!(trace.header, header);
+}
