@@ -9,6 +9,8 @@
 #![no_std]
 extern crate alloc;
 
+#[cfg(test)]
+mod alone;
 pub mod barrier;
 pub mod broadcast;
 mod channel;

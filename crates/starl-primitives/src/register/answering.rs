@@ -215,3 +215,52 @@ impl Register {
         robot.set_timer(self.timer(Alarm::Operation(number)), after);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::alone::alone;
+    use crate::register::Options;
+    use crate::register::entering::Standing;
+    use starl_core::Payload;
+
+    /// Robot 0 has asked for copies, and one other has answered that it has none: it stores its value next.
+    fn writing(robot: &mut Robot<'_>) -> (Register, u32, Tag) {
+        let mut register = Register::new("values", None, Options::default());
+        register.standing = Standing::Up(1);
+        register
+            .write(robot, "x", Payload::from_slice(&[7]))
+            .expect("a short name");
+        let number = register.last_number;
+        let nothing = Said::Shown {
+            claimed: None,
+            promised: None,
+            version: None,
+        };
+        let incarnation = register.incarnation.of(robot);
+        let id = QuestionId {
+            incarnation,
+            number,
+        };
+        register.answered(robot, RobotId(1), 1, id, nothing);
+        let operation = &register.operations[&number];
+        assert_eq!(operation.phase, Phase::Store);
+        let tag = operation.latest.as_ref().expect("it is stored").tag;
+        (register, number, tag)
+    }
+
+    #[test]
+    fn an_acknowledgement_of_another_value_does_not_count() {
+        alone(|robot| {
+            let (mut register, number, tag) = writing(robot);
+            let earlier = Tag::default();
+            assert!(!register.note(RobotId(2), 1, number, Said::Stored(earlier)));
+            assert!(
+                !register.operations[&number]
+                    .answers
+                    .contains_key(&RobotId(2))
+            );
+            assert!(register.note(RobotId(2), 1, number, Said::Stored(tag)));
+        });
+    }
+}

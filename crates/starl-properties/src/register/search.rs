@@ -6,9 +6,9 @@
 //! possibilities as a set of configurations (Lowe 2017, "Testing for Linearizability").
 //!
 //! Ours differs because this is a register: reads change nothing, so they are not ordered. Each configuration contains,
-//! for every current read, the values since its begin. Concurrent writes that only such reads can see may take effect
-//! in any order. A write that will not end takes effect only when a read shows it: now, or just before the last write that
-//! took effect.
+//! for every current read, the values since its begin. A write takes effect only when it ends or a read shows it: now,
+//! or just before the last write that took effect, which has overwritten it at once. So the number of configurations
+//! does not grow with the number of orders of concurrent writes.
 //!
 //! An update replaces one value by another, and can take effect only while the register has the first. Then the order
 //! matters, so once a register was updated all orders of the current operations are tried. These are few, because an
@@ -50,7 +50,7 @@ struct Configuration {
     effective: BTreeSet<Id>,
     /// For each read under way what it may give.
     possible: BTreeMap<Id, BTreeSet<Content>>,
-    /// When a write last took effect, while reads are under way.
+    /// When a write last took effect; 0 where that does not matter any more.
     changed: Moment,
 }
 
@@ -185,18 +185,18 @@ impl Search {
             return self.keep_if_known(next);
         }
         self.now += 1;
-        let Some(Write { value, .. }) = self.writes.remove(&id) else {
+        let Some(write) = self.writes.remove(&id) else {
             return;
         };
         let mut next = BTreeSet::new();
         for mut configuration in core::mem::take(&mut self.configurations) {
             if configuration.effective.remove(&id) {
                 next.insert(configuration);
-            } else if !self.with_earlier(&configuration, value, &mut next) {
-                return;
+            } else {
+                self.take_effect(configuration, write, write.begun, &mut next);
             }
         }
-        self.keep(next);
+        self.keep_if_few(next);
     }
 
     pub fn read_ends(&mut self, id: Id, result: Content) {
@@ -224,26 +224,13 @@ impl Search {
             };
             let candidates = self.writes.iter().filter_map(can_take_effect);
             let candidates: Vec<(Id, Write)> = candidates.collect();
-            for (
-                write,
-                Write {
-                    value,
-                    begun: written,
-                    is_abandoned,
-                },
-            ) in candidates
-            {
+            for (id, write) in candidates {
                 let mut effective = configuration.clone();
-                effective.effective.insert(write);
-                if is_abandoned && configuration.changed > begun.max(written) {
-                    next.insert(self.with_overwritten(effective.clone(), value));
-                }
-                if !self.with_earlier(&effective, value, &mut next) {
-                    return;
-                }
+                effective.effective.insert(id);
+                self.take_effect(effective, write, begun.max(write.begun), &mut next);
             }
         }
-        self.keep(next);
+        self.keep_if_few(next);
     }
 
     /// The possible states after any pending operations have taken effect, in any order, so that it `fits`;
@@ -255,12 +242,19 @@ impl Search {
         let mut found = core::mem::take(&mut self.configurations);
         let mut left: Vec<Configuration> = found.iter().cloned().collect();
         while let Some(configuration) = left.pop() {
-            for (id, &Write { value, .. }) in &self.writes {
+            for (id, &Write { value, begun, .. }) in &self.writes {
                 let finds = self.updated.get(id);
                 let can = finds.is_none_or(|finds| *finds == configuration.content);
                 if can && !configuration.effective.contains(id) {
                     let mut then = configuration.clone();
                     then.effective.insert(*id);
+                    // A write from before the first update may have been overwritten before it.
+                    if finds.is_none() && then.changed > begun {
+                        let overwritten = self.with_overwritten(then.clone(), value);
+                        if found.insert(overwritten.clone()) {
+                            left.push(overwritten);
+                        }
+                    }
                     then.become_(value, 0);
                     if found.insert(then.clone()) {
                         left.push(then);
@@ -299,37 +293,37 @@ impl Search {
         configuration
     }
 
-    /// A write takes effect, after any others of those that are under way. Whether it is not too much.
-    fn with_earlier(
-        &mut self,
-        configuration: &Configuration,
-        value: i64,
+    /// A write takes effect: now, or just before the last one, if that took effect after the moment `since`.
+    fn take_effect(
+        &self,
+        mut configuration: Configuration,
+        Write { value, .. }: Write,
+        since: Moment,
         next: &mut BTreeSet<Configuration>,
-    ) -> bool {
-        // Operations that will not end need no place in the order, unless their effect is seen.
-        let others = self
-            .writes
-            .iter()
-            .filter(|(id, write)| !write.is_abandoned && !configuration.effective.contains(id));
-        let others: Vec<(Id, i64)> = others.map(|(&id, write)| (id, write.value)).collect();
-        let is_few = others.len() < MOST_CONFIGURATIONS.ilog2() as usize;
-        let subsets = if is_few { 1_u32 << others.len() } else { 0 };
-        for subset in 0..subsets {
-            let mut then = configuration.clone();
-            for (index, &(id, value)) in others.iter().enumerate() {
-                if subset >> index & 1 == 1 {
-                    then.effective.insert(id);
-                    then.become_(value, self.now);
-                }
-            }
-            then.become_(value, self.now);
-            next.insert(then);
+    ) {
+        if configuration.changed > since {
+            next.insert(self.with_overwritten(configuration.clone(), value));
         }
-        let is_enough = is_few && next.len() <= MOST_CONFIGURATIONS;
-        if !is_enough {
-            self.give_up();
+        configuration.become_(value, self.now);
+        next.insert(configuration);
+    }
+
+    fn keep_if_few(&mut self, mut next: BTreeSet<Configuration>) {
+        // Of those that differ only in when a write last took effect, the last in order leaves the most possible.
+        let mut following = next.iter().skip(1);
+        let is_less = |one: &Configuration| {
+            following.next().is_some_and(|other| {
+                (&one.content, &one.effective, &one.possible)
+                    == (&other.content, &other.effective, &other.possible)
+            })
+        };
+        let less: Vec<bool> = next.iter().map(is_less).collect();
+        let mut less = less.into_iter();
+        next.retain(|_| !less.next().unwrap_or(false));
+        match next.len() > MOST_CONFIGURATIONS {
+            true => self.give_up(),
+            false => self.keep(next),
         }
-        is_enough
     }
 
     fn give_up(&mut self) {
@@ -350,9 +344,12 @@ impl Search {
         let done: BTreeSet<Id> = done.map(|(&id, _)| id).collect();
         self.writes.retain(|id, _| !done.contains(id));
         self.updated.retain(|id, _| !done.contains(id));
+        let writes = self.writes.values().map(|write| write.begun);
+        let oldest = self.reads.values().copied().chain(writes).min();
         let lean = next.into_iter().map(|mut configuration| {
             configuration.effective.retain(|id| !done.contains(id));
-            if self.reads.is_empty() {
+            // It matters only to operations that began before.
+            if oldest.is_none_or(|oldest| configuration.changed <= oldest) {
                 configuration.changed = 0;
             }
             configuration
@@ -531,8 +528,48 @@ mod tests {
     fn it_says_so_when_it_would_take_too_long() {
         let mut search = Search::default();
         (0..40).for_each(|id| search.write_begins(id, id as i64));
+        search.update_begins(40, Content::Nothing, 40);
         search.write_ends(7);
         assert_eq!(search.verdict(), Verdict::Unknown);
+    }
+
+    #[test]
+    fn many_robots_that_write_and_read_at_once_are_judged() {
+        for is_wrong in [false, true] {
+            let mut search = Search::default();
+            let mut random = Random::keyed(1, &[]);
+            let (mut last, mut content) = (0, Content::Nothing);
+            for _ in 0..200 {
+                // All begin at once and end one by one. One in three reads, and the others write new values.
+                let mut under_way: Vec<Id> = (last + 1..=last + 30).collect();
+                last += 30;
+                for &id in &under_way {
+                    match id % 3 {
+                        0 => search.read_begins(id),
+                        _ => search.write_begins(id, id as i64),
+                    }
+                }
+                while !under_way.is_empty() {
+                    let next = random.below(under_way.len() as u32) as usize;
+                    let id = under_way.swap_remove(next);
+                    if id.is_multiple_of(3) {
+                        search.read_ends(id, content);
+                    } else {
+                        content = Content::Value(id as i64);
+                        search.write_ends(id);
+                    }
+                }
+            }
+            if is_wrong {
+                search.read_begins(last + 1);
+                search.read_ends(last + 1, Content::Value(1));
+            }
+            let expected = match is_wrong {
+                true => Verdict::Impossible,
+                false => Verdict::Possible,
+            };
+            assert_eq!(search.verdict(), expected);
+        }
     }
 
     #[test]

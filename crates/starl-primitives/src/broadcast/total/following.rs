@@ -212,3 +212,119 @@ impl Entry {
         64 + self.size()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::packet::Generation;
+    use super::super::snapshots::Place;
+    use super::*;
+    use crate::alone::alone;
+    use crate::reliable::Options;
+    use starl_core::{Effect, Event, Port, RobotId};
+
+    /// The only life of a robot.
+    fn life(robot: u32) -> Life {
+        Life::of_test(RobotId(robot), 1)
+    }
+
+    /// The messages of robot 1 with numbers up to this one, as its log begins.
+    fn messages(last: u32) -> Part {
+        let message = |number| Entry {
+            term: 1,
+            what: What::Message {
+                from: RobotId(1),
+                number,
+                content: Payload::new(),
+            },
+        };
+        Part {
+            previous: 0,
+            previous_term: 0,
+            entries: (1..=last).map(message).collect(),
+        }
+    }
+
+    /// The continuation that robot 1 sends as the leader, in this round.
+    fn continuation(round: u64, part: Part) -> Continuation {
+        Continuation {
+            term: 1,
+            round,
+            commit: part.entries.len() as u64,
+            part,
+            floor: 0,
+            is_beat: true,
+        }
+    }
+
+    fn generation() -> Generation {
+        Generation {
+            counter: 1,
+            founder: life(1),
+        }
+    }
+
+    /// Robot 0 in a group of three.
+    fn member(robot: &mut Robot<'_>) -> Total {
+        let mut total = Total::new(Port::named("news"), Options::default());
+        let voters = Vec::from([total.life(robot), life(1), life(2)]);
+        total.founded(robot, generation(), 2, voters);
+        total
+    }
+
+    /// How many messages a robot delivers.
+    fn delivered(effects: &[Effect]) -> usize {
+        let is_delivery = |effect: &&Effect| match effect {
+            Effect::Record(Event::Primitive { event, .. }) => event.name() == "deliver",
+            _ => false,
+        };
+        effects.iter().filter(is_delivery).count()
+    }
+
+    #[test]
+    fn a_late_datagram_of_the_leader_is_no_sign_that_it_lives() {
+        alone(|robot| {
+            let mut total = member(robot);
+            total.append(robot, life(1), continuation(7, messages(2)));
+            total.member.as_mut().expect("a group").silence = 5;
+            let silence = |total: &Total| total.member.as_ref().map(|member| member.silence);
+            total.append(robot, life(1), continuation(7, messages(2)));
+            total.append(robot, life(1), continuation(6, messages(1)));
+            assert_eq!(silence(&total), Some(5));
+            total.append(robot, life(1), continuation(8, messages(3)));
+            assert_eq!(silence(&total), Some(0));
+        });
+    }
+
+    #[test]
+    fn a_robot_that_returns_to_its_group_delivers_nothing_twice() {
+        let effects = alone(|robot| {
+            let mut total = member(robot);
+            total.append(robot, life(1), continuation(1, messages(3)));
+            // After a fault it returns as another life, to a leader that has delivered less so far.
+            total.leave(robot, LeaveReason::Corrupt);
+            let me = total.life(robot);
+            let place = Place {
+                to: me.name,
+                call: 1,
+                quorum: 2,
+                term: 2,
+                index: 1,
+                index_term: 1,
+                base: 0,
+                roll: Vec::from([(me, 0), (life(1), 1), (life(2), 0)]),
+            };
+            total.go_on(robot, life(2), generation(), place);
+            let mut part = messages(4);
+            part.entries.remove(0);
+            (part.previous, part.previous_term) = (1, 1);
+            let next = Continuation {
+                term: 2,
+                commit: 4,
+                ..continuation(1, part)
+            };
+            total.append(robot, life(2), next);
+            assert_eq!(total.member.as_ref().map(|member| member.applied), Some(4));
+        });
+        assert_eq!(delivered(&effects), 4);
+    }
+}
