@@ -57,7 +57,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("HashSet", "Set"),
 ];
 
-/// What other languages call a type of values that may be missing.
+/// Names in other languages for a type of values that may be missing.
 const FOREIGN_OPTIONAL: [&str; 3] = ["Option", "Optional", "Maybe"];
 
 impl Checker {
