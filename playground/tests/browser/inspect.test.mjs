@@ -116,7 +116,7 @@ test("a run stops where an expression over all robots becomes true; a wrong brea
   await panel.getByRole("alert").getByText('no program of the scenario has the action "jump"').waitFor();
   await panel.getByLabel("Stop at").selectOption("when");
   await panel.getByRole("alert").waitFor({ state: "detached" });
-  await panel.getByLabel("Expression, as in").fill("exists r: r.currentIndx > 1");
+  await panel.getByLabel("Expression, as in").fill("exists r: r.currentIndexes > 1");
   await add.click();
   await panel.getByRole("alert").getByText("currentIndex").last().waitFor();
   await panel.getByLabel("Expression, as in").fill("exists r: r.currentIndex > 1");
