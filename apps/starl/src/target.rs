@@ -88,14 +88,6 @@ fn warn(application: &Application, origin: &Origin) {
     for (field, reason) in application.scenario().idle_fields() {
         console::complain(&format!("warning: {field}: {reason}\n"));
     }
-    let network = &application.scenario().network;
-    if let Some(delay) = network.too_short_delays().next() {
-        let resolution = network.resolution;
-        console::complain(&format!(
-            "warning: network.delay: {delay} is shorter than network.resolution, so datagrams take up to {resolution}; \
-             lower `network.resolution`\n"
-        ));
-    }
 }
 
 /// Prints the errors of programs, each with its lines; the failure sums them up.

@@ -300,7 +300,7 @@ fn fields_without_the_field_that_they_need_are_pointed_out() {
             "network.reordering",
         ),
         (
-            "network.resolution=30ms",
+            "network.resolution=1s",
             "network.resolution",
             "physics.step",
         ),

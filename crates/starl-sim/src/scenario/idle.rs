@@ -1,10 +1,10 @@
-//! Fields that are set and cannot have an effect, because another field that they need is not set.
+//! Fields that are set and cannot have their effect, because of what another field is.
 
 use super::{FaultRates, Link, Motion, Scenario, Storage, Wind};
 use starl_core::{Duration, Intervention, Point};
 
 impl Scenario {
-    /// Fields that have no effect as the scenario stands: their paths, and the reason with a suggested fix.
+    /// Fields that do not have their effect as the scenario stands: their paths, and the reason with a suggested fix.
     pub fn idle_fields(&self) -> Vec<(&'static str, String)> {
         let step = self.physics.step;
         let is_changed =
@@ -27,6 +27,16 @@ impl Scenario {
             let is_set = network.link.reordering_delay != Link::default().reordering_delay;
             let field = "network.reordering_delay";
             idle(is_set && !is_held_back, field, needs("network.reordering"));
+        }
+        let slot = network.resolution.min(step);
+        let links = network.overrides.iter().map(|different| &different.link);
+        let mut delays = links.chain([&network.link]).map(|link| link.delay);
+        // Where it is zero, datagrams are to arrive as soon as they can.
+        if let Some(delay) = delays.find(|delay| !delay.is_zero() && *delay < slot) {
+            let reason = format!(
+                "{delay} is shorter than a slot, so datagrams take up to {slot}; lower `network.resolution`"
+            );
+            idle(true, "network.delay", reason);
         }
         let reason = format!(
             "slots are not longer than `physics.step`, {step}; lower it, or raise the step"

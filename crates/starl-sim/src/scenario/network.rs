@@ -126,14 +126,6 @@ impl Link {
 }
 
 impl Network {
-    /// Delays that are shorter than the resolution and therefore have no exact effect; none if datagrams arrive
-    /// immediately.
-    pub fn too_short_delays(&self) -> impl Iterator<Item = Duration> {
-        let overrides = self.overrides.iter().map(|different| &different.link);
-        let delays = overrides.chain([&self.link]).map(|link| link.delay);
-        delays.filter(|delay| !delay.is_zero() && *delay < self.resolution)
-    }
-
     /// The properties of the link between two robots.
     pub fn link(&self, from: RobotId, to: RobotId) -> &Link {
         let names = |set: &Option<Vec<RobotId>>, robot| {
