@@ -5,8 +5,8 @@ use crate::settings::{Actions, Settings};
 use starl_core::event::Hit;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Estimate;
-use starl_core::{Command, MotionRequest, Point, Pose, Random, RobotId, Time, random};
-use starl_motion::contact::{Contact, Contacts, Grid, Motions};
+use starl_core::{Command, Duration, MotionRequest, Point, Pose, Random, RobotId, Time, random};
+use starl_motion::contact::{self, Contact, Contacts, Grid, Motions, Parts};
 use starl_motion::proximity::{Rays, Scene};
 use starl_motion::{Disturbance, Neighbour, Pilot, State};
 use std::sync::Arc;
@@ -227,19 +227,39 @@ impl World {
     fn step(&mut self, common: &Common, work: &mut Scratch) {
         let settings = &common.settings;
         self.pilot(settings, work);
+        let mut parts = Parts::of(settings.physics_step);
+        loop {
+            let bend = self.predict(settings, parts.length(), work);
+            if settings.collisions && !parts.suits(bend) {
+                continue;
+            }
+            self.advance(settings, work);
+            if !parts.go_on() {
+                break;
+            }
+        }
+        self.now += settings.physics_step;
+    }
+
+    /// Predicts where robots are after a part of the step. Returns the greatest bend of a path, metres.
+    fn predict(&mut self, settings: &Settings, part: Duration, work: &mut Scratch) -> f64 {
         work.predicted.clear();
         work.next.clear();
-        let mut is_moving = false;
+        let mut greatest: f64 = 0.0;
         for ((model, state), command) in
             settings.models.iter().zip(&self.states).zip(&work.commands)
         {
-            let calm = Disturbance::default();
-            let predicted = model.predict(state, command, &calm, settings.physics_step);
-            let next = predicted.pose.position;
-            is_moving |= next != state.pose.position;
+            let predicted = model.predict(state, command, &Disturbance::default(), part);
+            let bend = contact::bend(state.pose.position, &predicted, part.seconds());
+            greatest = greatest.max(bend);
+            work.next.push(predicted.pose.position);
             work.predicted.push(predicted);
-            work.next.push(next);
         }
+        greatest
+    }
+
+    /// Moves robots to where they were predicted, or to where they touch something.
+    fn advance(&mut self, settings: &Settings, work: &mut Scratch) {
         if settings.collisions {
             let scene = Scene {
                 bodies: &self.bodies,
@@ -250,8 +270,10 @@ impl World {
             motions.first_contacts(self.grid.entries(), &mut work.found);
             work.contacts.settle(&motions, work.found.drain(..));
         }
+        let mut is_moving = false;
         for (robot, state) in self.states.iter_mut().enumerate() {
             let contact = work.contacts.of(RobotId(robot as u32));
+            is_moving |= work.next[robot] != state.pose.position;
             *state = work.predicted[robot];
             if let Some(Contact { impact, .. }) = contact {
                 settings.models[robot].stop_at(state, impact.place);
@@ -261,7 +283,6 @@ impl World {
             let touched = &mut self.touched[robot];
             *touched = touched.or(contact.map(|contact| contact.with));
         }
-        self.now += settings.physics_step;
         if is_moving {
             self.grid.rebuild(&self.bodies, &[]);
         }

@@ -1,18 +1,20 @@
 //! Finds the contacts of bodies within a step, and the positions where those bodies stop.
 //!
 //! Bodies move along straight lines to their predicted positions. Where paths bend, hosts take a step in
-//! [parts](parts), so that the lines are near the paths. A body that touches another, or an obstacle, stays
+//! [parts](Parts), so that the lines are near the paths. A body that touches another, or an obstacle, stays
 //! there for the rest of the step, and may stop others behind it. Contacts are settled in the order of their times, as
 //! in a discrete-event simulation of hard spheres (Alder and Wainwright 1959), so that no body is stopped by one that
 //! had stopped elsewhere before.
 
 mod grid;
 mod impact;
+mod parts;
 
 pub use grid::{Entry, Grid};
+pub use parts::{Parts, bend};
 
+use crate::Impact;
 use crate::proximity::Scene;
-use crate::{Impact, State};
 use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -20,26 +22,7 @@ use core::cmp::Reverse;
 use impact::Leg;
 use starl_core::event::Hit;
 use starl_core::geometry::Bounds;
-use starl_core::{Point, RobotId, math};
-
-/// The straight lines along which bodies move are at most this far from their paths, metres.
-const STRAIGHTNESS: f64 = 1e-3;
-
-/// How far the path of a body in the floor plane is from the straight line to its predicted state, metres: exact for a
-/// constant acceleration, and nearly so for an arc.
-#[inline]
-pub fn bend(from: Point, predicted: &State, seconds: f64) -> f64 {
-    let (way, velocity) = (predicted.pose.position - from, predicted.twist.linear);
-    let x = velocity.x * seconds - way.x;
-    let y = velocity.y * seconds - way.y;
-    0.25 * math::sqrt(x * x + y * y)
-}
-
-/// Into how many parts a step has to be cut in which the path of a body bends by this, metres.
-pub fn parts(bend: f64) -> u64 {
-    // The line of a part is nearer to the path by the square of their number.
-    math::sqrt(bend / STRAIGHTNESS).min(1e6) as u64 + u64::from(bend > STRAIGHTNESS)
-}
+use starl_core::{Point, RobotId};
 
 /// The contact that stops a body in the step.
 #[derive(Clone, Copy, Debug)]

@@ -19,12 +19,9 @@ use starl_core::{
 };
 use starl_host::Node;
 use starl_host::journal::{Batch, Journal};
-use starl_motion::contact::{self, Contact, Contacts, Motions};
+use starl_motion::contact::{Contact, Contacts, Motions, Parts};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
-
-/// Parts of a step are not shorter than this.
-const SHORTEST_PART: Duration = Duration(10_000);
 
 /// A running scenario. A clone continues exactly as the original would.
 #[derive(Clone)]
@@ -265,29 +262,27 @@ impl Simulation {
         }
     }
 
-    /// Moves the bodies. A step in which paths bend is taken in parts whose lengths follow from the paths.
+    /// Moves the bodies. A step in which paths bend is taken in parts.
     fn advance(&mut self, step: Window) {
-        let mut part = step;
+        let mut parts = Parts::of(step.to.since(step.from));
         loop {
+            let part = Window {
+                from: step.from + parts.from,
+                to: step.from + parts.to,
+            };
             self.shared.wind = wind(&self.shared.scenario, part.from);
-            let length = part.to.since(part.from);
-            let parts = contact::parts(self.predict(part));
-            if parts > 1 && length > SHORTEST_PART && self.shared.scenario.physics.collisions {
-                part.to = part.from + Duration(length.0 / parts).max(SHORTEST_PART);
+            let bend = self.predict(part);
+            if self.shared.scenario.physics.collisions && !parts.suits(bend) {
                 continue;
             }
             self.collide();
             self.settle(step, part);
-            if part.to == step.to {
+            if !parts.go_on() {
                 return;
             }
             if self.have_moved() {
                 self.index_robots();
             }
-            part = Window {
-                from: part.to,
-                to: step.to.min(part.to + length * 2),
-            };
         }
     }
 
