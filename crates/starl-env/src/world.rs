@@ -234,7 +234,7 @@ impl World {
                 continue;
             }
             self.advance(settings, work);
-            if !parts.go_on() {
+            if !parts.proceed() {
                 break;
             }
         }

@@ -56,8 +56,8 @@ impl Parts {
         false
     }
 
-    /// Goes on to the next part, of up to twice the length; false after the last one.
-    pub fn go_on(&mut self) -> bool {
+    /// Continues with the next part, of up to twice the length; false after the last one.
+    pub fn proceed(&mut self) -> bool {
         let length = self.length();
         self.from = self.to;
         self.to = self.step.min(self.to + length * 2);

@@ -277,7 +277,7 @@ impl Simulation {
             }
             self.collide();
             self.settle(step, part);
-            if !parts.go_on() {
+            if !parts.proceed() {
                 return;
             }
             if self.have_moved() {
