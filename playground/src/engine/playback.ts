@@ -118,13 +118,14 @@ export class Playback {
     if (this.#known - this.#now < NEAR) this.#following = this.grows;
     while (this.#playing === playing && (this.grows || this.#now < this.opened.duration)) {
       await new Promise((resolve) => setTimeout(resolve, UPDATE_EVERY));
+      // The run has been paused, or another moment is shown.
+      if (this.#playing !== playing) return;
       const real = performance.now();
       this.#now = Math.min(this.#known, this.#now + ((real - last) / 1000) * Math.min(speed, 1000));
       if (this.#following) this.#now = this.#known;
       last = real;
-      if (this.#playing === playing) this.#update(speed);
+      this.#update(speed);
     }
-    if (this.#playing !== playing) return;
     this.#playing = null;
     this.#update();
   }
