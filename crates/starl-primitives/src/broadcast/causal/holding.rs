@@ -55,7 +55,7 @@ impl Causal {
 
     /// Whether everything that comes before has been delivered or will not come.
     fn is_settled(&self, held: &Held, need: &Need) -> bool {
-        if self.waits_for_held(held, &need.after) {
+        if self.is_held(&need.after) {
             return false;
         }
         let Process { robot: sender, .. } = need.after.process;
@@ -72,39 +72,6 @@ impl Causal {
         let is_lost = age >= LEAST_LOOKS && self.suspects.contains(&sender)
             || age >= LONGEST_SILENCE && is_silent;
         is_known || need.is_over || is_lost
-    }
-
-    /// Whether a message waits for one that has arrived and is held.
-    fn waits_for_held(&self, held: &Held, after: &After) -> bool {
-        self.is_held(after) || self.is_missed(after) && self.follows_held_life(held, after)
-    }
-
-    /// Whether messages of an earlier life of the sender on which a message depends are held, as far as is known: of a
-    /// life that is over, and whose messages were sent without knowledge of this one.
-    fn follows_held_life(&self, held: &Held, after: &After) -> bool {
-        let sender = after.process.robot;
-        let Some(present) = self.vector.heard(sender) else {
-            return false;
-        };
-        let mut before = self.held.get(&sender).into_iter().flatten();
-        before.any(|before| {
-            let life = before.process();
-            let knows_it = before.after.iter().any(|need| {
-                need.after.process == held.process() && need.after.number >= held.arrival.number
-            });
-            let is_over = life.incarnation != present.incarnation && life != after.process;
-            is_over && after.process.incarnation != present.incarnation && !knows_it
-        })
-    }
-
-    /// Whether messages up to there would have to be passed over.
-    fn is_missed(&self, after: &After) -> bool {
-        let &After { process, number } = after;
-        match self.vector.standing(process) {
-            Standing::Present(life) => life.taken < number,
-            Standing::Over(taken) => taken < number,
-            Standing::Unknown(passed) => passed.is_none_or(|passed| passed < number),
-        }
     }
 
     /// Whether one that has arrived is held.
@@ -139,7 +106,7 @@ impl Causal {
                 return;
             };
             let mut all = held.after.iter().map(|need| &need.after);
-            let Some(before) = all.find(|after| self.waits_for_held(held, after)) else {
+            let Some(before) = all.find(|after| self.is_held(after)) else {
                 break;
             };
             next = before.process.robot;
@@ -189,7 +156,12 @@ impl Causal {
     fn pass_over(&mut self, robot: &mut Robot<'_>, need: &Need) {
         let After { process, number } = need.after;
         let from = process.robot;
-        if !self.is_missed(&need.after) {
+        let is_missed = match self.vector.standing(process) {
+            Standing::Present(life) => life.taken < number,
+            Standing::Over(taken) => taken < number,
+            Standing::Unknown(passed) => passed.is_none_or(|passed| passed < number),
+        };
+        if !is_missed {
             return;
         }
         // A robot that joins late has not lost the messages that were sent before.

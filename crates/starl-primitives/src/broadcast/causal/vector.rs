@@ -110,11 +110,6 @@ impl Vector {
         self.0.get_mut(&robot)?.present.as_mut()
     }
 
-    /// The same, to look at.
-    pub fn heard(&self, robot: RobotId) -> Option<Life> {
-        self.0.get(&robot)?.present
-    }
-
     /// Whether anything of a robot was ever taken.
     pub fn is_joined(&self, robot: RobotId) -> bool {
         let known = self.0.get(&robot);
