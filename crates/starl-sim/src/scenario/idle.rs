@@ -1,7 +1,7 @@
 //! Fields that are set and cannot have their effect, because of what another field is.
 
 use super::{FaultRates, Link, Motion, Scenario, Storage, Wind};
-use starl_core::{Duration, Intervention, Point};
+use starl_core::{Intervention, Point};
 
 impl Scenario {
     /// Fields that do not have their effect as the scenario stands: their paths, and the reason with a suggested fix.
@@ -17,20 +17,19 @@ impl Scenario {
             }
         };
         let (network, wind) = (&self.network, Wind::default());
+        let others = network.overrides.iter().map(|different| &different.link);
+        let links = others.chain([&network.link]);
         if !self.events.iter().any(is_changed) {
             let queue = super::Network::default().queue;
             let is_idle = network.queue != queue && network.bandwidth.is_none();
             idle(is_idle, "network.queue", needs("network.bandwidth"));
-            let links = network.overrides.iter().map(|different| &different.link);
-            let held_back = |link: &Link| link.reordering > 0.0;
-            let is_held_back = links.chain([&network.link]).any(held_back);
+            let is_held_back = links.clone().any(|link| link.reordering > 0.0);
             let is_set = network.link.reordering_delay != Link::default().reordering_delay;
             let field = "network.reordering_delay";
             idle(is_set && !is_held_back, field, needs("network.reordering"));
         }
         let slot = network.resolution.min(step);
-        let links = network.overrides.iter().map(|different| &different.link);
-        let mut delays = links.chain([&network.link]).map(|link| link.delay);
+        let mut delays = links.map(|link| link.delay);
         // Where it is zero, datagrams are to arrive as soon as they can.
         if let Some(delay) = delays.find(|delay| !delay.is_zero() && *delay < slot) {
             let reason = format!(
@@ -85,24 +84,23 @@ impl Scenario {
 
     fn idle_faults(&self) -> Vec<(&'static str, String)> {
         let (rates, default) = (&self.faults.rates, FaultRates::default());
-        let is_set = |value: Duration, default: Duration| value != default;
         let impair = rates.stuck_motor.max(rates.frozen_sensor);
         let ends = [
             (
                 "fault_rates.restart_after",
-                is_set(rates.restart_after, default.restart_after),
+                rates.restart_after != default.restart_after,
                 rates.crash,
                 "crash",
             ),
             (
                 "fault_rates.heal_after",
-                is_set(rates.heal_after, default.heal_after),
+                rates.heal_after != default.heal_after,
                 rates.partition,
                 "partition",
             ),
             (
                 "fault_rates.repair_after",
-                is_set(rates.repair_after, default.repair_after),
+                rates.repair_after != default.repair_after,
                 impair,
                 "stuck_motor",
             ),
