@@ -1,6 +1,7 @@
 """Sweeps and campaigns on a cluster of Ray, of which a node is killed: the same results as on one core."""
 
 import logging
+import socket
 import threading
 import time
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ import ray
 from ray.cluster_utils import Cluster
 
 import starl
+from starl._work import connect
 
 
 @pytest.fixture
@@ -67,3 +69,21 @@ def test_an_error_of_a_worker_is_one_message(cluster: Any) -> None:
 
     with pytest.raises(starl.StarlError, match="the work cannot be done"):
         list(_work.on_ray("ray", b"", {}, fail, [1, 2]))
+
+
+def test_a_client_that_the_cluster_could_not_serve_at_first_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: list[str] = []
+
+    def init(address: str, **_: Any) -> None:
+        tried.append(address)
+        if len(tried) == 1:
+            # What Ray raises when the cluster could not start a process for the client.
+            raise ConnectionAbortedError("Initialization failure from server: starting a server failed")
+
+    monkeypatch.setattr(ray, "init", init)
+    monkeypatch.setattr(ray, "is_initialized", lambda: len(tried) > 1)
+    monkeypatch.setattr(ray, "cluster_resources", lambda: {"CPU": 2.0})
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        address = f"ray://127.0.0.1:{server.getsockname()[1]}"
+        assert connect(address) == 2
+    assert tried == [address, address]

@@ -116,6 +116,13 @@ def _on(pool: Executor, work: Callable[[int], Result], numbers: list[int], count
         raise
 
 
+def unreachable(address: str, error: Exception) -> StarlError:
+    """The error of a cluster that cannot be reached."""
+    reason = (str(error).strip().splitlines() or [type(error).__name__])[-1].strip().rstrip(".")
+    hint = "; start one with `ray start --head`, or use \"local\" for one of this process" if address == "ray" else ""
+    return StarlError(f"the cluster of Ray {address!r} cannot be reached: {reason}{hint}")
+
+
 def connect(address: str) -> int:
     """Connects this process to a cluster of Ray, unless it is connected to one, and gives the number of its processors.
     "ray" is the cluster that RAY_ADDRESS names or that runs on this machine, "local" one that is started here."""
@@ -124,22 +131,23 @@ def connect(address: str) -> int:
     except ImportError:
         raise StarlError("a cluster needs Ray: pip install 'starl[ray]'") from None
 
-    # A cluster that takes clients sometimes fails to start the process for one.
-    tries = 3 if address.startswith("ray://") else 1
+    place = urlsplit(address if "://" in address else f"//{address}")
+    named = {"ray": "auto", "local": None}.get(address, address)
+    # A cluster that takes clients sometimes fails to start the process for one, and says so by a broken connection.
+    pauses = [1.0, 3.0] if place.scheme == "ray" else []
     while not ray.is_initialized():
-        tries -= 1
-        named = {"ray": "auto", "local": None}.get(address, address)
         try:
             # Ray itself would try for minutes.
-            if (place := urlsplit(address if "://" in address else f"//{address}")).port:
+            if place.port:
                 socket.create_connection((place.hostname, place.port), timeout=5.0).close()
+        except (OSError, ValueError) as error:
+            raise unreachable(address, error) from None
+        try:
             ray.init(address=named, log_to_driver=False, logging_level=logging.ERROR)
         except (OSError, RuntimeError, ValueError, ImportError) as error:
-            if tries and not isinstance(error, OSError):
-                continue
-            reason = (str(error).strip().splitlines() or [type(error).__name__])[-1].strip().rstrip(".")
-            hint = "; start one with `ray start --head`, or use \"local\" for one of this process" if address == "ray" else ""
-            raise StarlError(f"the cluster of Ray {address!r} cannot be reached: {reason}{hint}") from None
+            if not pauses:
+                raise unreachable(address, error) from None
+            time.sleep(pauses.pop(0))
     resources: dict[str, float] = ray.cluster_resources()  # type: ignore[no-untyped-call]
     return int(resources.get("CPU", 0))
 
