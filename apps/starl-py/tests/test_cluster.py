@@ -77,7 +77,7 @@ def test_a_client_that_the_cluster_could_not_serve_at_first_is_tried_again(monke
     def init(address: str, **_: Any) -> None:
         tried.append(address)
         if len(tried) == 1:
-            # What Ray raises when the cluster could not start a process for the client.
+            # Ray raises this when the cluster could not start a process for the client.
             raise ConnectionAbortedError("Initialization failure from server: starting a server failed")
 
     monkeypatch.setattr(ray, "init", init)
