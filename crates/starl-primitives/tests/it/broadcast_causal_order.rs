@@ -149,6 +149,57 @@ fn a_held_message_of_an_earlier_life_counts_when_it_is_delivered() {
 }
 
 #[test]
+fn messages_of_an_earlier_life_are_not_delivered_after_a_later_one_was_passed_over() {
+    let mut passed_over = 0;
+    for seed in 0..20 {
+        let mut world = world(4, seed, Wire::perfect(), 0);
+        let pause = Duration::from_millis(200);
+        for robot in 0..4 {
+            world.command(robot, tell(robot as u32));
+            world.run_for(pause);
+        }
+        // Robot 0 misses a message of robot 3, and holds what robot 2 says after it.
+        world.wire.cut.insert((3, 0));
+        world.command(3, tell(10));
+        world.run_for(pause);
+        world.command(2, tell(20));
+        world.run_for(pause);
+        // It hears nothing of the next life of robot 2, but of robot 1, which does.
+        world.wire.cut.insert((2, 0));
+        let mut starts = Vec::new();
+        world.crash(2);
+        world.start(2);
+        starts.push((world.now, 2));
+        world.command(2, tell(21));
+        world.run_for(pause);
+        world.command(1, tell(11));
+        world.run_for(pause);
+        world.crash(2);
+        world.wire.cut.remove(&(2, 0));
+        world.start(2);
+        starts.push((world.now, 2));
+        world.command(2, tell(22));
+        world.run_for(pause);
+        world.wire.cut.clear();
+        world.run_for(Duration::from_seconds(5));
+        assert_eq!(
+            causal_violation(&runs(&world, &starts)),
+            None,
+            "seed {seed}"
+        );
+        let got = world.events("got");
+        let to_0 = got.iter().filter(|got| got.1 == RobotId(0));
+        let to_0: Vec<i64> = to_0.map(|got| int(&got.2["value"])).collect();
+        assert!(
+            to_0.ends_with(&[10, 11, 22]) || to_0.ends_with(&[11, 10, 22]),
+            "{to_0:?}"
+        );
+        passed_over += world.events("pass_over").len();
+    }
+    assert!(passed_over >= 20, "{passed_over}");
+}
+
+#[test]
 fn the_program_is_notified_of_missed_messages() {
     let mut world = hearsay(4);
     world.crash(0);

@@ -1,6 +1,6 @@
 //! Questions to other robots about their messages, and the consequences of the answers.
 
-use super::vector::{After, Process, Standing};
+use super::vector::{After, Process, Rank, Standing};
 use super::{Causal, Look};
 use starl_core::{Robot, RobotId};
 
@@ -47,7 +47,7 @@ impl Causal {
     }
 
     /// A robot has said how far it is.
-    pub(super) fn answered(&mut self, answer: &Answer) {
+    pub(super) fn answered(&mut self, robot: &mut Robot<'_>, answer: &Answer) {
         let &Answer {
             process,
             before,
@@ -56,7 +56,7 @@ impl Causal {
         } = answer;
         let last = next.saturating_sub(1);
         let peer = process.robot;
-        self.hear(process);
+        self.hear(robot, process);
         let doubt = self.doubts.get(&peer).copied();
         let doubt = doubt.filter(|doubt| doubt.ticket == ticket);
         let Some(life) = self.vector.present(peer) else {
@@ -88,14 +88,20 @@ impl Causal {
                 }
             }
         }
-        self.vector.forget_unheard(peer, doubt.since);
+        if self.vector.forget_unheard(peer, doubt.since) {
+            self.give_up_earlier(robot, peer, Rank::Present);
+        }
     }
 
     /// This life of a robot is heard from now on.
-    pub(super) fn hear(&mut self, process: Process) {
-        let Some(over) = self.vector.hear(process) else {
-            return;
-        };
+    pub(super) fn hear(&mut self, robot: &mut Robot<'_>, process: Process) {
+        let over = self.vector.hear(process);
+        let present = self.vector.present(process.robot);
+        if present.is_some_and(|life| !life.is_joined && life.taken > 0) {
+            // Others spoke of this life before it was heard, and messages of it were passed over.
+            self.give_up_earlier(robot, process.robot, Rank::Present);
+        }
+        let Some(over) = over else { return };
         for held in self.held.values_mut().flatten() {
             let about = held.after.iter_mut();
             about

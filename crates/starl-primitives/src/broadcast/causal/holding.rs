@@ -3,9 +3,10 @@
 //! Each sender's messages are held in the order in which they came, so only the first of each can be ready.
 
 use super::super::Gap;
-use super::vector::{After, Process, Standing};
+use super::vector::{After, Process, Rank, Standing};
 use super::{Causal, LEAST_LOOKS, LONGEST_SILENCE, Look};
 use crate::reliable::Arrival;
+use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 use starl_core::event::messaging::MessageNumber;
 use starl_core::event::{BroadcastEvent, TransferEvent};
@@ -32,6 +33,17 @@ pub(super) struct Need {
 }
 
 impl Held {
+    /// The message as one to wait for.
+    fn itself(&self) -> Need {
+        Need {
+            after: After {
+                process: self.process(),
+                number: self.arrival.number,
+            },
+            is_over: true,
+        }
+    }
+
     fn process(&self) -> Process {
         Process {
             robot: self.arrival.from,
@@ -46,8 +58,12 @@ impl Causal {
         self.looks.wrapping_sub(held.looks)
     }
 
-    /// A dependency for which the message must wait.
+    /// A dependency for which the message must wait. A message also waits while its sender has not said that the message
+    /// is not from a life before one that was passed over.
     pub(super) fn missing(&self, held: &Held) -> Option<After> {
+        if let Some(unheard) = self.vector.unheard(held.arrival.from) {
+            return Some(unheard);
+        }
         let mut all = held.after.iter();
         let need = all.find(|need| !self.is_settled(held, need))?;
         Some(need.after)
@@ -81,6 +97,12 @@ impl Causal {
         first.is_some_and(|first| first.arrival.number <= after.number)
     }
 
+    /// Whether the message may be from a life before one that was passed over, and its sender does not say.
+    fn is_in_doubt(&self, held: &Held) -> bool {
+        let is_doubtful = self.vector.unheard(held.arrival.from).is_some();
+        is_doubtful && self.age(held) >= LONGEST_SILENCE
+    }
+
     /// Delivers all messages without open dependencies.
     pub(super) fn hand_out_ready(&mut self, robot: &mut Robot<'_>) {
         loop {
@@ -88,7 +110,8 @@ impl Causal {
                 .held
                 .iter()
                 .filter_map(|(&from, held)| Some((from, held.front()?)));
-            let ready = firsts.find(|(_, held)| self.missing(held).is_none());
+            let ready =
+                firsts.find(|(_, held)| self.missing(held).is_none() || self.is_in_doubt(held));
             let Some((from, _)) = ready else {
                 return;
             };
@@ -115,8 +138,10 @@ impl Causal {
         self.hand_out_ready(robot);
     }
 
-    /// Delivers a sender's first message; messages before it that have not arrived are skipped.
+    /// Delivers a sender's first message; messages before it that have not arrived are skipped. If it may be from a life
+    /// before one that was passed over, it is passed over too.
     fn hand_out(&mut self, robot: &mut Robot<'_>, from: RobotId) {
+        let is_doubtful = self.vector.unheard(from).is_some();
         let Some(held) = self.held.get_mut(&from).and_then(|held| held.pop_front()) else {
             return;
         };
@@ -124,6 +149,9 @@ impl Causal {
             self.held.remove(&from);
         }
         self.count -= 1;
+        if is_doubtful {
+            return self.pass_over(robot, &held.itself());
+        }
         for need in &held.after {
             self.pass_over(robot, need);
         }
@@ -152,6 +180,25 @@ impl Causal {
         robot.deliver(arrival.from, port, arrival.content);
     }
 
+    /// Passes over the messages of a sender that are held and may be from a life before the one of this rank, since
+    /// something of that life was passed over: they are too late.
+    pub(super) fn give_up_earlier(&mut self, robot: &mut Robot<'_>, from: RobotId, rank: Rank) {
+        let Some(held) = self.held.remove(&from) else {
+            return;
+        };
+        // A held life that is not known any more is older than those that are.
+        let is_earlier = |held: &Held| self.vector.rank(held.process()) < Some(rank);
+        let (earlier, rest): (VecDeque<Held>, VecDeque<Held>) =
+            held.into_iter().partition(is_earlier);
+        self.count -= earlier.len();
+        if !rest.is_empty() {
+            self.held.insert(from, rest);
+        }
+        for held in earlier {
+            self.pass_over(robot, &held.itself());
+        }
+    }
+
     /// Stops waiting for a message; that is on record if it was missed.
     fn pass_over(&mut self, robot: &mut Robot<'_>, need: &Need) {
         let After { process, number } = need.after;
@@ -163,6 +210,14 @@ impl Causal {
         };
         if !is_missed {
             return;
+        }
+        if number > 0 {
+            let rank = self.vector.rank(process);
+            let unheard = match need.is_over {
+                true => Rank::Unheard,
+                false => Rank::Unknown,
+            };
+            self.give_up_earlier(robot, from, rank.unwrap_or(unheard));
         }
         // A robot that joins late has not lost the messages that were sent before.
         let mut is_joined = self.vector.is_joined(from);

@@ -130,15 +130,17 @@ impl Causal {
                     next,
                     ticket,
                 } => {
-                    self.answered(&Answer {
-                        process: Process {
-                            robot: from,
-                            incarnation,
-                        },
+                    let process = Process {
+                        robot: from,
+                        incarnation,
+                    };
+                    let answer = Answer {
+                        process,
                         before,
                         next,
                         ticket,
-                    });
+                    };
+                    self.answered(robot, &answer);
                     self.hand_out_ready(robot);
                 }
                 _ => {}
@@ -158,7 +160,7 @@ impl Causal {
             incarnation: arrival.incarnation,
         };
         self.arrivals += 1;
-        self.hear(process);
+        self.hear(robot, process);
         let Some(life) = self.vector.present(from) else {
             return;
         };
@@ -190,13 +192,14 @@ impl Causal {
                     number: last.number,
                 }),
         );
-        let is_doubtful = self.vector.has_unheard(from);
+        let is_doubtful = self.vector.unheard(from).is_some();
         let unknown = after.iter().filter(|after| self.is_unknown(after));
         let mut unknown: Vec<RobotId> = unknown.map(|after| after.process.robot).collect();
         unknown.extend(is_doubtful.then_some(from));
-        let need = |after| Need {
+        // A robot does not know its later lives.
+        let need = |after: After| Need {
             after,
-            is_over: false,
+            is_over: after.process.robot == from && after.process != process,
         };
         let held = Held {
             arrival: Arrival { content, ..arrival },

@@ -62,6 +62,8 @@ struct Known {
 impl Known {
     /// A life is over, and so much of it was taken or passed over.
     fn end(&mut self, incarnation: u32, taken: u32) {
+        self.unheard
+            .retain(|unheard| unheard.incarnation != incarnation);
         if let Some(past) = self.past.iter_mut().find(|past| past.0 == incarnation) {
             past.1 = past.1.max(taken);
             return;
@@ -84,6 +86,18 @@ pub(super) enum Standing {
     Unknown(Option<u32>),
 }
 
+/// The place of a life in the order of its robot's lives: only a life of a smaller rank may be earlier. Lives are heard
+/// in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Rank {
+    Past(usize),
+    /// It was never heard, and is earlier than the present life.
+    Unheard,
+    Present,
+    /// It may be later than the present life.
+    Unknown,
+}
+
 /// All robots that were heard of.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Vector(BTreeMap<RobotId, Known>);
@@ -103,6 +117,17 @@ impl Vector {
         let mut unheard = known.unheard.iter();
         let unheard = unheard.find(|unheard| is_it(unheard.incarnation));
         Standing::Unknown(unheard.map(|unheard| unheard.passed))
+    }
+
+    /// The place of a life in the order of its robot's lives, if anything is known of it.
+    pub fn rank(&self, process: Process) -> Option<Rank> {
+        let known = self.0.get(&process.robot)?;
+        let is_it = |incarnation: u32| incarnation == process.incarnation;
+        if known.present.is_some_and(|life| is_it(life.incarnation)) {
+            return Some(Rank::Present);
+        }
+        let place = known.past.iter().position(|past| is_it(past.0))?;
+        Some(Rank::Past(place))
     }
 
     /// The life of a robot that is heard.
@@ -165,20 +190,30 @@ impl Vector {
         }
     }
 
-    /// Whether a robot has lives that may be over or not.
-    pub fn has_unheard(&self, robot: RobotId) -> bool {
-        let known = self.0.get(&robot);
-        known.is_some_and(|known| !known.unheard.is_empty())
+    /// A life of which messages were passed over, and which may be later than every life that was heard.
+    pub fn unheard(&self, robot: RobotId) -> Option<After> {
+        let mut unheard = self.0.get(&robot)?.unheard.iter();
+        let passed = unheard.find(|unheard| unheard.passed > 0)?;
+        Some(After {
+            process: Process {
+                robot,
+                incarnation: passed.incarnation,
+            },
+            number: passed.passed,
+        })
     }
 
-    /// Lives of a robot that were heard of by then are over, except the present one.
-    pub fn forget_unheard(&mut self, robot: RobotId, by: u64) {
-        if let Some(known) = self.0.get_mut(&robot) {
-            let over = known.unheard.extract_if(.., |unheard| unheard.since <= by);
-            let over: Vec<Unheard> = over.collect();
-            over.iter()
-                .for_each(|unheard| known.end(unheard.incarnation, unheard.passed));
-        }
+    /// Lives of a robot that were heard of by then are over, except the present one. Says whether messages of one were
+    /// passed over.
+    pub fn forget_unheard(&mut self, robot: RobotId, by: u64) -> bool {
+        let Some(known) = self.0.get_mut(&robot) else {
+            return false;
+        };
+        let over = known.unheard.extract_if(.., |unheard| unheard.since <= by);
+        let over: Vec<Unheard> = over.collect();
+        over.iter()
+            .for_each(|unheard| known.end(unheard.incarnation, unheard.passed));
+        over.iter().any(|unheard| unheard.passed > 0)
     }
 
     /// The dependencies of a message that is sent now: for each robot its present life, and its earlier lives too until
