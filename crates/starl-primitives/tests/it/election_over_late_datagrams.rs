@@ -94,3 +94,33 @@ fn a_leader_that_resigns_is_replaced_though_its_claims_arrive_for_ten_seconds_mo
         assert!(longest < SECOND * 25, "{count}: {longest}");
     }
 }
+
+/// A voter that took each late copy of a claim for a new claim would stay bound to the leader for ten seconds more.
+#[test]
+fn copies_of_the_claims_of_a_leader_that_has_crashed_bind_no_voter() {
+    let wire = Wire {
+        loss: 0.0,
+        duplication: 1.0,
+        late: (0.2, 10_000),
+        ..late()
+    };
+    let mut times = Vec::new();
+    for seed in 0..40 {
+        let make = Elector::eager(by(Algorithm::Leases));
+        let mut world = World::new(5, seed, wire.clone(), None, make);
+        let all: Vec<usize> = (0..5).collect();
+        led(&mut world, &all, None);
+        world.run_for(SECOND * 12);
+        let leader = election(&world, 0).leader().expect("there is a leader");
+        world.crash(leader.index());
+        let rest: Vec<usize> = all
+            .into_iter()
+            .filter(|&robot| robot != leader.index())
+            .collect();
+        times.push(led(&mut world, &rest, Some(leader.index())));
+    }
+    times.sort_unstable();
+    let (median, longest) = (times[times.len() / 2], times[times.len() - 1]);
+    println!("median {median}, longest {longest}");
+    assert!(median < SECOND * 5, "{median}");
+}

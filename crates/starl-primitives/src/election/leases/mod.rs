@@ -72,6 +72,8 @@ struct Promise {
     epoch: Epoch,
     /// Until then for no other robot than the one of this epoch.
     until: Time,
+    /// The number of the last claim for which it voted.
+    number: u32,
 }
 
 /// The leader, as far as this robot knows; itself or another.
@@ -79,6 +81,12 @@ struct Promise {
 struct Shown {
     epoch: Epoch,
     until: Time,
+}
+
+/// Whether a claim is no later than another to the same epoch. Numbers that are further apart than any late copy are
+/// those of a corruption.
+fn is_no_later(number: u32, other: u32) -> bool {
+    other.wrapping_sub(number) < MOST_CLAIMS as u32
 }
 
 impl Leases {
@@ -140,10 +148,9 @@ impl Leases {
         self.give_up(scene);
     }
 
-    /// Whether a claim to the latest epoch that was shown is no later than one that was heard. Numbers that are further
-    /// apart than any late copy are those of a corruption.
+    /// Whether a claim to the latest epoch that was shown is no later than one that was heard.
     fn has_heard(&self, number: u32) -> bool {
-        self.heard.wrapping_sub(number) < MOST_CLAIMS as u32
+        is_no_later(number, self.heard)
     }
 
     /// There is no leader any more, as far as this robot knows.
@@ -283,6 +290,7 @@ impl Rules for Leases {
         self.promise = Promise {
             epoch: Epoch::random(random),
             until: time(random),
+            number: random.bits(),
         };
         self.known = Epoch::random(random);
         self.latest = Epoch::random(random);

@@ -201,7 +201,7 @@ impl Leases {
         scene.robot.report(port, vote);
         self.promise = Promise {
             epoch: self.known,
-            until: Time::ZERO,
+            ..Promise::default()
         };
         self.postpone(scene);
     }

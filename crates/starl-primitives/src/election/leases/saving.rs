@@ -26,6 +26,7 @@ impl Leases {
                 self.promise = Promise {
                     epoch: promised,
                     until: now + scene.options.lease,
+                    number: 0,
                 };
             }
             None if saved.is_whole() => {}

@@ -2,7 +2,7 @@
 //!
 //! Invariant: as long as a promise binds, this robot votes for no other robot, nor for itself.
 
-use super::{Leases, Promise};
+use super::{Leases, Promise, is_no_later};
 use crate::election::epoch::Epoch;
 use crate::election::packet::{Claim, Packet};
 use crate::election::rules::Scene;
@@ -36,7 +36,7 @@ impl Leases {
         }
         // Of two that stand at once the later epoch goes first.
         self.give_up(scene);
-        self.bind(scene, epoch);
+        self.bind(scene, &claim);
         self.put_off.take_if(|(_, other)| other.epoch <= epoch);
         let number = claim.number;
         scene.send(from, Packet::Grant { epoch, number });
@@ -44,11 +44,20 @@ impl Leases {
 
     /// Promises the vote. The rest of the pause before this robot's own candidacy begins when the promise ends:
     /// otherwise it would outbid a candidate that had to wait for the same promise.
-    fn bind(&mut self, scene: &Scene<'_, '_>, epoch: Epoch) {
+    fn bind(&mut self, scene: &Scene<'_, '_>, claim: &Claim) {
+        let &Claim { epoch, number, .. } = claim;
+        if epoch == self.promise.epoch && is_no_later(number, self.promise.number) {
+            // A late copy: it would bind the voter to a leader that is gone.
+            return;
+        }
         let (now, before) = (scene.now(), self.promise.until);
         let until = now + scene.options.lease;
         self.stand_at = until + self.stand_at.since(before.max(now));
-        self.promise = Promise { epoch, until };
+        self.promise = Promise {
+            epoch,
+            until,
+            number,
+        };
     }
 
     /// The epoch because of which this robot does not vote for another.
