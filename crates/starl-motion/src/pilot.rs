@@ -4,7 +4,7 @@
 //! put a nearer point and a limit of speed in its place; commands that the program drives itself, and
 //! standing still, do not.
 
-use crate::avoidance::{Avoidance, Options};
+use crate::avoidance::{Avoidance, Driven, Options};
 use crate::tracking::{Goal, Tracking};
 use crate::{Model, Neighbour};
 use alloc::boxed::Box;
@@ -102,7 +102,11 @@ impl Pilot {
         let goal = match &mut self.avoidance {
             None => goal,
             Some(avoidance) => {
-                avoidance.guide(model, estimate, &goal, neighbours, obstacles, random)
+                let driven = Driven {
+                    model,
+                    tracking: &self.tracking,
+                };
+                avoidance.guide(driven, estimate, &goal, neighbours, obstacles, random)
             }
         };
         model.track(&mut self.tracking, estimate, &goal)

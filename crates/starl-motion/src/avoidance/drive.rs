@@ -1,14 +1,17 @@
 //! Robots that cannot move sideways: their greatest speed along their heading, and the point that makes them turn.
 //!
 //! A robot on wheels moves along its heading until it has turned, so its speed must be safe along its heading too. A
-//! car also swings to a side while it brakes, and its tracker chooses between forwards and backwards.
+//! car also swings to a side while it brakes, and its tracker chooses between forwards and backwards. Avoidance asks it:
+//! a car that has to be safe both ways cannot leave a place where it has room in one direction only.
 
 use super::cell::Cell;
 use super::pace::Pace;
 use super::plane::{larger, smaller, turned};
+use super::surroundings::Surroundings;
 use crate::Model;
+use crate::tracking::{Goal, Tracking};
 use smallvec::SmallVec;
-use starl_core::motion::{Body, Estimate};
+use starl_core::motion::Estimate;
 use starl_core::{Command, Point, math};
 
 /// Where a robot does not go straight to its goal it is given a point so many seconds ahead: far
@@ -22,18 +25,51 @@ const LEAST_STEP: f64 = 0.2;
 /// turning round.
 const STEP_BACK: f64 = 0.12;
 
-/// A car is given no point nearer than so many turning radii: it would have to shunt to get there.
-const CAR_STEP: f64 = 1.2;
+/// A car is given a point at a distance of so many turning radii. It would have to shunt to a nearer one, and would turn
+/// round to go to a farther one that is behind it.
+const CAR_STEP: f64 = 2.0;
 
-/// Below this part of its cruise speed a car may still choose between forwards and backwards...
+/// Below this part of its cruise speed a car may still choose between forwards and backwards.
 const CREEP: f64 = 0.05;
-/// ... unless the point it is given is on its axis; this is the cosine of how nearly.
-const ON_AXIS: f64 = 0.98;
 
 /// A heading that meets a border at an angle of no more than this sine goes along it: robots on wheels
 /// are not steered more exactly. As soon as one has gone a millimetre or two too far, its cell turns it
 /// away by as much.
 const GRAZING: f64 = 0.045;
+
+/// A robot as its tracker drives it.
+#[derive(Clone, Copy)]
+pub(crate) struct Driven<'a> {
+    pub model: &'a dyn Model,
+    /// The state of its tracker before this estimate.
+    pub tracking: &'a Tracking,
+}
+
+impl Driven<'_> {
+    /// Whether the tracker will drive a car forwards or backwards to this goal; none if it stops, or is no car's.
+    fn gear(&self, estimate: &Estimate, goal: &Goal) -> Option<Gear> {
+        // With any limit of speed the tracker chooses the same.
+        let goal = Goal {
+            speed_limit: f64::INFINITY,
+            ..*goal
+        };
+        match self
+            .model
+            .track(&mut self.tracking.clone(), estimate, &goal)
+        {
+            Command::Steer { speed, .. } if speed > 0.0 => Some(Gear::Forwards),
+            Command::Steer { speed, .. } if speed < 0.0 => Some(Gear::Backwards),
+            _ => None,
+        }
+    }
+}
+
+/// The way that a car drives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Gear {
+    Forwards,
+    Backwards,
+}
 
 /// How a robot gets about.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,16 +99,15 @@ impl Drive {
     }
 
     /// The greatest speed, metres per second, with which the robot stays in its cell if its desired velocity is
-    /// `velocity`. `near` means that the point to track is at most [`Drive::step`] away.
+    /// `velocity` and its tracker is given `goal`.
     pub fn speed_limit(
         self,
-        body: &Body,
-        pace: &Pace,
-        estimate: &Estimate,
+        around: &Surroundings,
         cell: &Cell,
         velocity: Point,
-        near: bool,
+        goal: &Goal,
     ) -> f64 {
+        let estimate = around.estimate;
         let ahead = velocity.normalized().unwrap_or(Point::ZERO);
         match self {
             // Where the robot is too near on two sides, the velocity is the best that can be had.
@@ -88,7 +123,7 @@ impl Drive {
                 slowest(cell, &[ahead, course, between], GRAZING)
             }
             Drive::Car => {
-                let directions = car_directions(body, pace, estimate, ahead, near);
+                let directions = car_directions(around, goal);
                 slowest(cell, &directions, 0.0)
             }
         }
@@ -101,7 +136,7 @@ impl Drive {
             Drive::AnyWay => step,
             Drive::OnTheSpot if heading(estimate).dot(ahead) < -0.5 => STEP_BACK,
             Drive::OnTheSpot => step,
-            Drive::Car => larger(step, CAR_STEP * pace.turn_radius),
+            Drive::Car => CAR_STEP * pace.turn_radius,
         }
     }
 }
@@ -114,16 +149,15 @@ fn slowest(cell: &Cell, directions: &[Point], grazing: f64) -> f64 {
 }
 
 /// Where a car may go before the next estimate. It continues along its course whatever its command is, or swings off it
-/// to either side while it brakes. From a standstill its tracker chooses forwards or backwards, and its centre, which
-/// is ahead of the axle that does not steer, slips to the side that it steers to.
-fn car_directions(
-    body: &Body,
-    pace: &Pace,
-    estimate: &Estimate,
-    ahead: Point,
-    near: bool,
-) -> SmallVec<[Point; 4]> {
-    let heading = heading(estimate);
+/// to either side while it brakes. From a standstill it goes forwards or backwards as its tracker chooses, and its centre,
+/// which is ahead of the axle that does not steer, slips to the side that it steers to.
+fn car_directions(around: &Surroundings, goal: &Goal) -> SmallVec<[Point; 4]> {
+    let Surroundings {
+        body,
+        pace,
+        estimate,
+        ..
+    } = *around;
     let velocity = estimate.twist.linear.at_height(0.0);
     let speed = velocity.planar_length();
     let both_sides = |course: Point, angle: f64| [turned(course, angle), turned(course, -angle)];
@@ -135,14 +169,15 @@ fn car_directions(
         }
         _ => {}
     }
+    let heading = heading(estimate);
     // That axle is inside the body.
     let slip = math::asin(smaller(body.radius / pace.turn_radius, 1.0));
-    let along = heading.dot(ahead);
+    let gear = around.driven.gear(estimate, goal);
     let mut directions = SmallVec::new();
-    if !(near && along < -ON_AXIS) {
+    if gear != Some(Gear::Backwards) {
         directions.extend(both_sides(heading, slip));
     }
-    if !(near && along > ON_AXIS) {
+    if gear != Some(Gear::Forwards) {
         directions.extend(both_sides(-heading, slip));
     }
     directions

@@ -31,11 +31,12 @@ mod yielding;
 pub use options::Options;
 pub(crate) use surroundings::OBSTACLE_MARGIN;
 
+use crate::Limits;
 use crate::Neighbour;
 use crate::tracking::Goal;
-use crate::{Limits, Model};
 use courtesy::{Courtesy, Queue};
 use drive::Drive;
+pub(crate) use drive::Driven;
 use pace::Pace;
 use plane::{larger, smaller};
 use smallvec::SmallVec;
@@ -86,15 +87,16 @@ impl Avoidance {
     ///
     /// A flying robot that is still on the ground must stay there while the height of the returned goal is below its
     /// lowest height of travel: another robot is above it.
-    pub fn guide(
+    pub(crate) fn guide(
         &mut self,
-        model: &dyn Model,
+        driven: Driven,
         estimate: &Estimate,
         goal: &Goal,
         neighbours: &[Neighbour],
         obstacles: &[Obstacle],
         random: &mut Random,
     ) -> Goal {
+        let model = driven.model;
         let elapsed = self.note_time(estimate.at);
         let (body, pace) = (&model.body(), &Pace::new(&model.limits(), self.period));
         let goal = &Goal {
@@ -117,6 +119,7 @@ impl Avoidance {
             body,
             pace,
             drive: Drive::of(model),
+            driven,
             estimate,
             neighbours: &neighbours,
             obstacles,
@@ -164,7 +167,18 @@ impl Avoidance {
             velocity = passing::velocity(&cell, &neighbour, wish, velocity);
         }
         let straight = velocity == wish && on_course;
-        let limit = drive.speed_limit(body, pace, estimate, &cell, velocity, !straight);
+        let ahead = velocity.normalized().unwrap_or(Point::ZERO);
+        let off_course = |speed: f64| Goal {
+            target: (position + ahead * drive.step(pace, estimate, ahead, speed))
+                .at_height(goal.target.z),
+            next: None,
+            speed_limit: smaller(goal.speed_limit, speed),
+        };
+        let tracked = match straight {
+            true => *goal,
+            false => off_course(velocity.planar_length()),
+        };
+        let limit = drive.speed_limit(around, &cell, velocity, &tracked);
         let scene = Scene {
             body,
             pace,
@@ -185,14 +199,7 @@ impl Avoidance {
                 ..*goal
             };
         }
-        let speed = smaller(velocity.planar_length(), limit);
-        let ahead = velocity.normalized().unwrap_or(Point::ZERO);
-        let step = drive.step(pace, estimate, ahead, speed);
-        Goal {
-            target: (position + ahead * step).at_height(goal.target.z),
-            next: None,
-            speed_limit: smaller(goal.speed_limit, speed),
-        }
+        off_course(smaller(velocity.planar_length(), limit))
     }
 
     /// Where to go now: the target, a place to wait for it, or the place of a detour.

@@ -33,6 +33,14 @@ const MOVING: f64 = 0.25;
 const FIRST_YIELDS: f64 = 0.25;
 /// Probability that another one yields.
 const OTHERS_YIELD: f64 = 0.75;
+/// After each vain attempt the way of a car grows by this part of the first one.
+const LONGER: f64 = 0.25;
+/// After each vain attempt the way of a car may bend by this more, in curvatures of its smallest circle...
+const MORE_BENT: f64 = 0.25;
+/// ... up to this: its centre follows no narrower circle than its axle.
+const MOST_BENT: f64 = 0.8;
+/// A car turns by at most this on such a way, radians, so that the place of its detour stays before it or behind it.
+const MOST_TURN: f64 = 2.0;
 /// After this many vain attempts times grow no further.
 const MOST_LEVELS: u32 = 4;
 
@@ -163,7 +171,7 @@ impl Yielding {
     fn draw(&self, options: &Options, scene: &Scene, random: &mut Random) -> Detour {
         let now = scene.estimate.at;
         let way = match scene.drive {
-            Drive::Car => self.way_along_axis(scene, random),
+            Drive::Car => self.way_along_arc(scene, random),
             Drive::AnyWay | Drive::OnTheSpot => self.way_aside(scene, random),
         };
         let growth = f64::from(1u32 << self.level);
@@ -193,18 +201,29 @@ impl Yielding {
         turned(towards, angle) * distance
     }
 
-    /// Straight on or straight back, where there is more room: a car gets nowhere else without
-    /// shunting.
-    fn way_along_axis(&self, scene: &Scene, random: &mut Random) -> Point {
+    /// Along an arc forwards or backwards, where there is more room: a car gets nowhere else without shunting. The first
+    /// arc is straight. Robots that stand at their goals do not make room, and a car that backs and comes straight again
+    /// meets them again, so after vain attempts arcs are longer and more bent.
+    fn way_along_arc(&self, scene: &Scene, random: &mut Random) -> Point {
         let ahead = heading(scene.estimate);
         let room = |direction| smaller(scene.cell.speed(direction, 0.0), scene.pace.cruise_speed);
         let (forwards, backwards) = (room(ahead), room(-ahead));
         let goes_ahead = forwards > backwards || forwards == backwards && random.chance(0.5);
-        let distance = random.between(1.2, 2.4) * scene.pace.turn_radius;
-        if goes_ahead {
-            ahead * distance
-        } else {
-            -ahead * distance
-        }
+        let level = f64::from(self.level);
+        let length = random.between(1.2, 2.4 * (1.0 + LONGER * level));
+        let most_bent = smaller(smaller(MORE_BENT * level, MOST_BENT), MOST_TURN / length);
+        let bend = random.between(-1.0, 1.0) * most_bent;
+        let axis = if goes_ahead { ahead } else { -ahead };
+        turned(axis, 0.5 * length * bend) * (chord(length, bend) * scene.pace.turn_radius)
     }
+}
+
+/// The distance between the ends of an arc of a length and a curvature.
+fn chord(length: f64, curvature: f64) -> f64 {
+    let half = 0.5 * length * curvature;
+    if half.abs() < 1e-6 {
+        return length;
+    }
+    let (sine, _) = math::sincos(half);
+    length * sine / half
 }

@@ -1,6 +1,6 @@
 //! The figures of `docs/explanation/avoidance.md`: 200 seeds a scene and model, each with exact and with
 //! noisy estimates. It takes minutes:
-//! `cargo test --release -p starl-motion --test it avoidance_sweep -- --ignored`
+//! `cargo test --release -p starl-motion --test it avoidance_sweep -- --ignored --nocapture`
 
 use crate::avoidance_world::scenes::{AGILE, circle, crossing, head_on, narrow_corridor, strewn};
 use crate::avoidance_world::{Scene, World, runs};
@@ -8,28 +8,33 @@ use crate::avoidance_world::{Scene, World, runs};
 /// Runs of a scene that take longer are given up, seconds.
 const BOUND: f64 = 900.0;
 
-/// Says what is worse unless there is no collision in any run, and the time until the last robot has been at its goal
-/// is at most `median` in half of the runs and at most `most` in 99 of 100, seconds.
+/// The times in the table may be exceeded by these factors: the median hardly depends on chance, the slowest runs do.
+const MARGINS: (f64, f64) = (1.1, 1.4);
+
+/// Fails if there is a collision in any run. Says what is worse unless the time until the last robot has been at its goal
+/// is about at most `median` in half of the runs and `most` in 99 of 100, seconds, as measured for the table.
 fn sweep(
     name: &str,
     (median, most): (f64, f64),
     scene: impl Fn(u64) -> Scene,
 ) -> Result<(), String> {
-    let mut times = Vec::new();
+    let (mut times, mut least_gap) = (Vec::new(), f64::INFINITY);
     for (positioning, seed) in runs(200) {
         let mut world = World::new(&scene(seed), positioning, seed);
         let took = world.run(BOUND);
         world.must_be_clear();
+        least_gap = world.least_gap.min(least_gap);
         times.push(took.unwrap_or(f64::INFINITY));
     }
     times.sort_by(f64::total_cmp);
     let (middle, late) = (times[times.len() / 2], times[times.len() * 99 / 100]);
     let endless = times.iter().filter(|time| time.is_infinite()).count();
     println!(
-        "{name}: {middle:.2}, {late:.2}; {endless} of {} runs were given up",
-        times.len()
+        "{name}: {middle:.2}, {late:.2}; {endless} of {} runs were given up; {:.0} mm between bodies",
+        times.len(),
+        1000.0 * least_gap
     );
-    match middle <= median && late <= most {
+    match middle <= MARGINS.0 * median && late <= MARGINS.1 * most {
         true => Ok(()),
         false => Err(format!(
             "{name}: half of the runs take {middle} s, one of a hundred {late} s"
@@ -50,27 +55,25 @@ fn sweep_agile(expected: [(f64, f64); 4], scene: impl Fn(&'static str, u64) -> S
 #[ignore = "minutes"]
 fn head_on_pairs() {
     sweep_agile(
-        [(22.2, 23.6), (6.0, 6.0), (9.0, 9.0), (22.0, 23.0)],
+        [(22.1, 23.5), (5.3, 5.4), (8.0, 8.1), (21.3, 22.1)],
         |model, _| head_on(model),
     );
-    sweep("car", (7.0, 21.0), |_| head_on("car")).unwrap();
 }
 
 #[test]
 #[ignore = "minutes"]
 fn circles_of_4() {
     sweep_agile(
-        [(29.0, 53.0), (11.0, 21.0), (12.0, 17.0), (25.0, 37.2)],
+        [(28.4, 53.0), (11.3, 19.3), (11.7, 16.3), (24.5, 37.1)],
         |model, _| circle(model, 4),
     );
-    sweep("car", (20.0, 60.0), |_| circle("car", 4)).unwrap();
 }
 
 #[test]
 #[ignore = "minutes"]
 fn circles_of_8() {
     sweep_agile(
-        [(45.0, 72.0), (34.0, 96.0), (13.0, 21.0), (30.0, 42.0)],
+        [(45.1, 70.4), (34.6, 87.7), (12.5, 20.7), (29.9, 43.8)],
         |model, _| circle(model, 8),
     );
 }
@@ -79,7 +82,7 @@ fn circles_of_8() {
 #[ignore = "minutes"]
 fn circles_of_16() {
     sweep_agile(
-        [(72.0, 120.5), (33.0, 104.0), (24.0, 35.0), (45.0, 61.0)],
+        [(71.9, 120.4), (32.7, 112.1), (23.0, 34.8), (45.5, 60.5)],
         |model, _| circle(model, 16),
     );
 }
@@ -88,17 +91,16 @@ fn circles_of_16() {
 #[ignore = "minutes"]
 fn crossing_streams() {
     sweep_agile(
-        [(46.0, 62.0), (19.0, 31.0), (21.0, 26.0), (46.0, 58.0)],
+        [(45.6, 61.3), (18.6, 32.1), (20.5, 25.0), (45.7, 58.0)],
         |model, _| crossing(model),
     );
-    sweep("car", (23.0, 143.0), |_| crossing("car")).unwrap();
 }
 
 #[test]
 #[ignore = "minutes"]
 fn strewn_robots() {
     sweep_agile(
-        [(26.0, 61.0), (11.0, 94.0), (10.0, 40.0), (24.0, 35.0)],
+        [(25.4, 65.0), (10.7, 88.2), (9.5, 39.2), (23.3, 33.6)],
         |model, seed| strewn(&[model], 8, &[], seed),
     );
 }
@@ -107,20 +109,29 @@ fn strewn_robots() {
 #[ignore = "minutes"]
 fn narrow_corridors() {
     sweep_agile(
-        [(125.0, 385.0), (40.0, 93.0), (74.0, 231.0), (138.0, 514.0)],
+        [(121.4, 386.6), (39.3, 90.4), (73.9, 230.5), (137.0, 529.8)],
         |model, _| narrow_corridor(model),
     );
 }
 
 #[test]
 #[ignore = "minutes"]
-fn strewn_cars() {
-    sweep("car", (8.0, 318.0), |seed| strewn(&["car"], 4, &[], seed)).unwrap();
+fn cars() {
+    let worse = [
+        sweep("two cars head-on", (6.1, 15.0), |_| head_on("car")),
+        sweep("circle of 4 cars", (17.6, 41.3), |_| circle("car", 4)),
+        sweep("streams of cars", (19.7, 42.8), |_| crossing("car")),
+        sweep("strewn cars", (7.4, 113.6), |seed| {
+            strewn(&["car"], 4, &[], seed)
+        }),
+    ];
+    let worse: Vec<String> = worse.into_iter().filter_map(Result::err).collect();
+    assert!(worse.is_empty(), "{worse:#?}");
 }
 
 #[test]
 #[ignore = "minutes"]
 fn mixed_fleets() {
     let fleet = ["create", "car", "holonomic", "differential", "drone"];
-    sweep("mixed", (24.0, 472.0), |seed| strewn(&fleet, 10, &[], seed)).unwrap();
+    sweep("mixed", (23.2, 219.6), |seed| strewn(&fleet, 10, &[], seed)).unwrap();
 }

@@ -8,8 +8,49 @@ use starl_core::event::moving::Trouble;
 use starl_core::motion::{Body, Obstacles};
 use starl_core::{Obstacle, Point, Robot, math};
 
-/// The way that counts as much as a turn of one radian, metres.
-const TURN: f64 = 0.15;
+/// A turn towards the next waypoint by this counts as progress, radians: 2 degrees. In the default `stuck_after` that is
+/// half a degree per second, half of the slowest turn that a model can be given, and more than estimates of the heading
+/// usually err by.
+const LEAST_TURN: f64 = math::PI / 90.0;
+
+/// The part of the path that is left to a robot.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mark {
+    /// Metres along the path, with the climb to the lowest height of travel.
+    way: f64,
+    /// From its heading to the next waypoint, radians; 0 for a robot that flies.
+    turn: f64,
+}
+
+impl Mark {
+    /// The part of the route that is left here and now.
+    pub fn here(route: &Route, robot: &Robot<'_>) -> Mark {
+        let (body, position) = (robot.body(), robot.position());
+        let reachable = body.reachable(position);
+        let climb = match body.flies() {
+            true => position.distance(reachable),
+            false => 0.0,
+        };
+        Mark {
+            way: climb + route.remaining(reachable),
+            turn: turn_towards(route, robot),
+        }
+    }
+
+    /// Whether the robot has come farther than this; then that is the new mark. A turn counts only until the robot comes
+    /// nearer, so it cannot make progress for ever by turning to and fro.
+    fn advance(&mut self, now: Mark, least_progress: f64) -> bool {
+        if now.way <= self.way - least_progress {
+            *self = now;
+            return true;
+        }
+        let turns = now.turn <= self.turn - LEAST_TURN;
+        if turns {
+            self.turn = now.turn;
+        }
+        turns
+    }
+}
 
 impl ReachAvoid {
     /// Takes a position estimate.
@@ -125,7 +166,7 @@ impl ReachAvoid {
         let Command {
             unsafe_set,
             known,
-            phase: Phase::Following { route, .. },
+            phase: Phase::Following { route, mark, .. },
             ..
         } = command
         else {
@@ -143,7 +184,12 @@ impl ReachAvoid {
         } = self.options;
         let position = body.reachable(robot.position());
         // At a waypoint the remaining way is the planned one, except for a quarter of the vicinity.
-        route.advance(position, 0.25 * vicinity, pass_radius, free)
+        let has_passed = route.advance(position, 0.25 * vicinity, pass_radius, free);
+        if has_passed {
+            // It turns towards another waypoint from now on.
+            mark.turn = turn_towards(route, robot);
+        }
+        has_passed
     }
 
     /// The way over these points; none if some straight way of it is not free.
@@ -184,33 +230,27 @@ impl ReachAvoid {
             Phase::Planning => self.no_path(robot),
             Phase::Pausing => self.replan(robot, Trouble::NoPath, false),
             Phase::Following { route, mark, .. } => {
-                let left = to_go(route, robot);
-                if left > *mark - self.options.least_progress {
-                    self.replan(robot, Trouble::Stuck, true);
-                } else {
-                    *mark = left;
+                let now = Mark::here(route, robot);
+                if mark.advance(now, self.options.least_progress) {
                     robot.set_timer(timer, self.options.stuck_after);
+                } else {
+                    self.replan(robot, Trouble::Stuck, true);
                 }
             }
         }
     }
 }
 
-/// Metres to go, with the climb to the lowest height of travel and the turn towards the next waypoint: a
-/// robot that turns on the spot makes progress.
-pub(super) fn to_go(route: &Route, robot: &Robot<'_>) -> f64 {
-    let (body, position) = (robot.body(), robot.position());
-    let reachable = body.reachable(position);
-    let ahead = if body.flies() {
-        position.distance(reachable)
-    } else {
-        let way = (route.current() - position).at_height(0.0);
-        let turn = way
-            .normalized()
-            .map_or(0.0, |way| way.heading() - robot.heading());
-        TURN * math::fabs(math::wrap_angle(turn))
-    };
-    ahead + route.remaining(reachable)
+/// How far a robot on the ground has to turn towards the next waypoint, radians.
+fn turn_towards(route: &Route, robot: &Robot<'_>) -> f64 {
+    if robot.body().flies() {
+        return 0.0;
+    }
+    let way = (route.current() - robot.position()).at_height(0.0);
+    let turn = way
+        .normalized()
+        .map_or(0.0, |way| way.heading() - robot.heading());
+    math::fabs(math::wrap_angle(turn))
 }
 
 /// The obstacles of either set; where they are the same, as with programs that keep out of all they know,

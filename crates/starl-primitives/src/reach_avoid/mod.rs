@@ -10,7 +10,8 @@
 //! - wind: where it is stronger than the robot can hold against, the command has failed, also when it was done
 //!   and the robot holds its target;
 //! - progress: it is not active for ever. In each [`Options::stuck_after`] the way ahead shrinks by
-//!   [`Options::least_progress`] or a re-plan is spent; there are [`Options::most_replans`] of them.
+//!   [`Options::least_progress`], or the turn that a robot on the ground has to make towards its next waypoint by 2
+//!   degrees, or a re-plan is spent; there are [`Options::most_replans`] of them.
 //!
 //! [`ReachAvoid::drive_lane`] follows a line up to a limit that can be moved, at a distance from the robots on it.
 //!
@@ -27,6 +28,7 @@ mod route;
 pub use options::Options;
 
 use alloc::boxed::Box;
+use following::Mark;
 use lane::Lane;
 use route::Route;
 use starl_core::event::ReachAvoidEvent;
@@ -83,8 +85,8 @@ enum Phase {
     /// The robot is on its way.
     Following {
         route: Route,
-        /// How far it had to go when the time-out for progress began, metres.
-        mark: f64,
+        /// The part of the route that was left when the time-out for progress began.
+        mark: Mark,
         /// When the path was found.
         since: Time,
     },

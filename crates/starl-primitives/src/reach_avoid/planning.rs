@@ -1,7 +1,7 @@
 //! How ReachAvoid comes by a path: it asks, waits for the answer, asks again a bounded number of times,
 //! and gives up.
 
-use super::following::to_go;
+use super::following::Mark;
 use super::route::Route;
 use super::{Phase, ReachAvoid};
 use alloc::sync::Arc;
@@ -83,7 +83,7 @@ impl ReachAvoid {
             return;
         };
         command.plan_failures = 0;
-        let mark = to_go(&route, robot);
+        let mark = Mark::here(&route, robot);
         let path = route.points().to_vec();
         command.phase = Phase::Following {
             route,

@@ -60,6 +60,81 @@ fn when_it_makes_no_progress() {
     assert_ne!(bench.plans[0].seed, bench.plans[1].seed);
 }
 
+/// It was called stuck if it turned by less than 10 degrees per second.
+#[test]
+fn turning_round_is_progress_at_any_speed() {
+    for degrees_per_second in [1, 5, 20] {
+        let mut bench = Bench::new(Options::default());
+        let mut degrees = 180;
+        bench.heading = f64::from(degrees).to_radians();
+        bench.go(p(4.0, 0.0), [].into());
+        bench.answer(Some(vec![p(4.0, 0.0)]));
+        while degrees > 0 {
+            // In the 4 s of `stuck_after`.
+            degrees = (degrees - 4 * degrees_per_second).max(0);
+            bench.heading = f64::from(degrees).to_radians();
+            bench.at(Point::ZERO);
+            bench.time_out();
+            let plans = bench.plans.len();
+            assert_eq!(plans, 1, "at {degrees_per_second} degrees per second");
+        }
+        bench.time_out();
+        assert_eq!(bench.plans.len(), 2, "now it has to drive");
+    }
+}
+
+/// It has to turn at each waypoint, however well it was aligned to the one before.
+#[test]
+fn turning_at_a_waypoint_is_progress() {
+    let mut bench = Bench::new(Options::default());
+    bench.go(p(2.0, 2.0), [].into());
+    bench.answer(Some(vec![p(2.0, 0.0), p(2.0, 2.0)]));
+    bench.at(p(1.8, 0.0));
+    bench.time_out();
+    // It passes the waypoint 5 cm on, and begins to turn left.
+    bench.at(p(1.86, 0.0));
+    assert_eq!(bench.tracked, Some((p(2.0, 2.0), None)));
+    bench.heading = 10.0_f64.to_radians();
+    bench.at(p(1.86, 0.0));
+    bench.time_out();
+    assert_eq!(bench.plans.len(), 1);
+}
+
+#[test]
+fn turning_to_and_fro_is_no_progress() {
+    let mut bench = under_way();
+    bench.heading = 40.0_f64.to_radians();
+    bench.at(p(0.5, 0.0));
+    bench.time_out();
+    for (degrees, plans) in [(30.0_f64, 1), (20.0, 1), (40.0, 2)] {
+        bench.heading = degrees.to_radians();
+        bench.at(p(0.5, 0.0));
+        bench.time_out();
+        assert_eq!(bench.plans.len(), plans, "at {degrees} degrees");
+    }
+    bench.answer(Some(vec![p(4.0, 0.0)]));
+    bench.heading = 50.0_f64.to_radians();
+    bench.at(p(0.5, 0.0));
+    bench.time_out();
+    assert_eq!(bench.plans.len(), 3, "it turns away");
+}
+
+#[test]
+fn a_robot_that_flies_makes_no_progress_by_turning() {
+    let mut bench = Bench::new(Options::default());
+    bench.body = AIR;
+    bench.heading = 3.0;
+    bench.go(Point::new(4.0, 0.0, 0.5), [].into());
+    bench.answer(Some(vec![Point::new(4.0, 0.0, 0.5)]));
+    bench.at(Point::new(0.0, 0.0, 0.5));
+    bench.time_out();
+    bench.answer(Some(vec![Point::new(4.0, 0.0, 0.5)]));
+    let plans = bench.plans.len();
+    bench.heading = 0.0;
+    bench.time_out();
+    assert_eq!(bench.plans.len(), plans + 1);
+}
+
 #[test]
 fn taking_off_is_progress() {
     let mut bench = Bench::new(Options::default());

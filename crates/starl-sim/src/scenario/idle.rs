@@ -30,7 +30,7 @@ impl Scenario {
         }
         let slot = network.resolution.min(step);
         let mut delays = links.map(|link| link.delay);
-        // Where it is zero, datagrams are to arrive as soon as they can.
+        // Zero means as soon as possible. A warning would name no fix, since every slot takes some time.
         if let Some(delay) = delays.find(|delay| !delay.is_zero() && *delay < slot) {
             let reason = format!(
                 "{delay} is shorter than a slot, so datagrams take up to {slot}; lower `network.resolution`"

@@ -14,6 +14,8 @@ pub struct Bench {
     pub reach_avoid: ReachAvoid,
     pub position: Point,
     pub velocity: Point,
+    /// Radians.
+    pub heading: f64,
     pub now: Time,
     pub body: Body,
     pub known: Obstacles,
@@ -45,6 +47,7 @@ impl Bench {
             reach_avoid: ReachAvoid::new("test", options),
             position: Point::ZERO,
             velocity: Point::ZERO,
+            heading: 0.0,
             now: Time::ZERO,
             body: GROUND,
             known: [].into(),
@@ -98,7 +101,7 @@ impl Bench {
             id: RobotId(0),
             now: self.now,
             estimate: Estimate {
-                pose: Pose::level(self.position, 0.0),
+                pose: Pose::level(self.position, self.heading),
                 twist: Twist {
                     linear: self.velocity,
                     ..Twist::default()
