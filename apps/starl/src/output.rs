@@ -37,10 +37,7 @@ impl Output {
     pub fn create(path: &Path) -> Result<(Output, File), Failure> {
         let target = identity(path);
         if is_special(path)? {
-            let file = File::options()
-                .write(true)
-                .open(path)
-                .map_err(|error| cannot(path, &error))?;
+            let file = open_special(path)?;
             return Ok((
                 Output {
                     path: path.to_path_buf(),
@@ -105,13 +102,61 @@ impl Drop for Output {
 /// Opens a file under its own name and discards its old content. It is a regular file unless the name is that of a
 /// pipe, a device or the like.
 pub fn create_now(path: &Path) -> Result<File, Failure> {
-    let is_special = is_special(path)?;
+    if is_special(path)? {
+        return open_special(path);
+    }
+    File::create(path).map_err(|error| cannot(path, &error))
+}
+
+/// Opens a pipe, a device or the like. A pipe needs a reader: opening one without would wait for it, perhaps for ever.
+fn open_special(path: &Path) -> Result<File, Failure> {
+    #[cfg(unix)]
+    if is_pipe(path) {
+        return open_pipe(path);
+    }
+    let opened = File::options().write(true).open(path);
+    opened.map_err(|error| cannot(path, &error))
+}
+
+#[cfg(unix)]
+fn is_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    fs::metadata(path).is_ok_and(|found| found.file_type().is_fifo())
+}
+
+/// How long the reader of a pipe, which a shell may start at the same moment, has to open it.
+#[cfg(unix)]
+const READER_AFTER: std::time::Duration = std::time::Duration::from_secs(1);
+
+#[cfg(unix)]
+fn open_pipe(path: &Path) -> Result<File, Failure> {
+    use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+    use rustix::io::Errno;
+    use std::os::unix::fs::OpenOptionsExt;
+    let start = std::time::Instant::now();
     let mut options = File::options();
     options
         .write(true)
-        .create(!is_special)
-        .truncate(!is_special);
-    options.open(path).map_err(|error| cannot(path, &error))
+        .custom_flags(OFlags::NONBLOCK.bits() as i32);
+    let file = loop {
+        match options.open(path) {
+            Ok(file) => break file,
+            Err(error) if Errno::from_io_error(&error) == Some(Errno::NXIO) => {
+                if start.elapsed() >= READER_AFTER {
+                    let problem =
+                        "is a pipe that no program reads; start its reader first, or name a file";
+                    return Err(Failure::file(path, problem));
+                }
+                std::thread::sleep(std::time::Duration::from_millis(10));
+            }
+            Err(error) => return Err(cannot(path, &error)),
+        }
+    };
+    // A slow reader makes writing wait.
+    fcntl_getfl(&file)
+        .and_then(|flags| fcntl_setfl(&file, flags.difference(OFlags::NONBLOCK)))
+        .map_err(|error| cannot(path, &error.into()))?;
+    Ok(file)
 }
 
 /// Whether a path that is to be written to is that of a pipe, a device or the like.

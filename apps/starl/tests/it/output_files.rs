@@ -143,3 +143,26 @@ fn a_closed_reader_is_not_an_error() {
     let output = run.wait_with_output().expect("it ends");
     assert_eq!((status(&output), stderr(&output)), (1, String::new()));
 }
+
+#[test]
+#[cfg(unix)]
+fn a_trace_can_go_through_a_pipe_to_a_program_that_reads_it() {
+    let folder = folder("trace_through_pipe");
+    file(&folder, "small.toml", SMALL);
+    let run = |trace: &str| starl(&folder, &["run", "small.toml", "--quiet", "--trace", trace]);
+    assert_eq!(status(&run("file.mcap")), 0);
+    let pipe = folder.join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read(pipe).expect("the pipe can be read")
+    });
+    let output = run("pipe");
+    // If the run has not opened the pipe, its reader must not wait for it.
+    let _ = fs::File::options().read(true).write(true).open(&pipe);
+    assert_eq!(status(&output), 0, "{}", stderr(&output));
+    let whole = fs::read(folder.join("file.mcap")).expect("the trace was written");
+    let read = reader.join().expect("the reader ends");
+    assert_eq!(read.len(), whole.len(), "the same trace");
+}
