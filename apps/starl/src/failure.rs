@@ -1,6 +1,6 @@
 //! Why a command could not be carried out: exit status 2.
 
-use starl_sim::read::{Problem, Problems};
+use starl_sim::read::{OneLine, Problem, Problems};
 use std::fmt;
 use std::path::Path;
 use thiserror::Error;
@@ -13,7 +13,8 @@ pub struct Failure(pub String);
 impl Failure {
     /// A failure to do something with a file.
     pub fn file(path: &Path, what: impl fmt::Display) -> Failure {
-        Failure(format!("{}: {what}", path.display()))
+        let path = path.display().to_string();
+        Failure(format!("{}: {what}", OneLine(&path)))
     }
 }
 

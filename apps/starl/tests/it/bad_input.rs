@@ -283,6 +283,33 @@ fn a_pipe_as_trace_is_not_waited_for() {
     }
 }
 
+/// The run waited for a reader for ever.
+#[test]
+#[cfg(unix)]
+fn a_pipe_without_a_reader_cannot_be_an_output() {
+    let folder = folder("pipe_as_output");
+    let pipe = folder.join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    for option in ["--trace", "--plot"] {
+        let run = ["run", "race", option, "pipe"];
+        refused(&folder, &run, &["pipe", "no program reads"]);
+    }
+}
+
+#[test]
+fn control_characters_of_paths_are_escaped() {
+    let folder = folder("control_characters");
+    let text = "program = \"race\"\nworld.files = [\"a\\u001b[31m.wpt\"]\n[[robots]]\nmodel = \"create\"\n";
+    file(&folder, "control.toml", text);
+    let file_name = ["a\\u{1b}[31m.wpt"];
+    refused(&folder, &["run", "control.toml"], &file_name);
+    let option = ["run", "race", "--trace", "none/a\u{1b}[31m.wpt"];
+    refused(&folder, &option, &file_name);
+    let output = starl(&folder, &option);
+    assert!(!stderr(&output).contains('\u{1b}'), "{}", stderr(&output));
+}
+
 #[test]
 fn fields_without_the_field_that_they_need_are_pointed_out() {
     let folder = folder("idle_fields");

@@ -17,5 +17,5 @@ pub(crate) mod value;
 pub(crate) mod written;
 
 pub(crate) use plain::{FieldTable, FieldValue, field_table, read_written, write_over};
-pub use problem::{Place, Problem, Problems};
+pub use problem::{OneLine, Place, Problem, Problems};
 pub use unit::Quantity;

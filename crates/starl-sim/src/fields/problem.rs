@@ -39,11 +39,27 @@ pub struct Problem {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problems(pub Vec<Problem>);
 
+/// A text on one line: characters that would change what a terminal does are escaped.
+#[derive(Clone, Copy, Debug)]
+pub struct OneLine<'a>(pub &'a str);
+
+impl fmt::Display for OneLine<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for part in self.0.split_inclusive(char::is_control) {
+            let shown = part.trim_end_matches(char::is_control);
+            write!(f, "{shown}{}", part[shown.len()..].escape_debug())?;
+        }
+        Ok(())
+    }
+}
+
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::File { name, line, column } => write!(f, "{name}:{line}:{column}"),
-            Place::Option(option) => write!(f, "{option}"),
+            Place::File { name, line, column } => {
+                write!(f, "{}:{line}:{column}", OneLine(name))
+            }
+            Place::Option(option) => write!(f, "{}", OneLine(option)),
         }
     }
 }
@@ -58,11 +74,11 @@ impl fmt::Display for Problem {
             Place::File { .. } => self.field.is_empty(),
         };
         if !named_already {
-            write!(f, "{}: ", self.field)?;
+            write!(f, "{}: ", OneLine(&self.field))?;
         }
-        write!(f, "{}", self.message)?;
+        write!(f, "{}", OneLine(&self.message))?;
         match &self.help {
-            Some(help) => write!(f, "; {help}"),
+            Some(help) => write!(f, "; {}", OneLine(help)),
             None => Ok(()),
         }
     }
@@ -101,4 +117,25 @@ pub(crate) fn line_and_column(text: &str, offset: usize) -> (u32, u32) {
     let line = 1 + before.matches('\n').count();
     let column = 1 + before[start_of_line..].chars().count();
     (line as u32, column as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_problem_is_on_one_line_and_leaves_the_terminal_as_it_is() {
+        let problem = Problem {
+            place: Place::File {
+                name: "a\u{1b}[31m\nb.wpt".into(),
+                line: 1,
+                column: 2,
+            },
+            field: String::new(),
+            message: "there is no file \u{9b}A \u{e4}".into(),
+            help: Some("it's \"c\td\"".into()),
+        };
+        let shown = "a\\u{1b}[31m\\nb.wpt:1:2: there is no file \\u{9b}A \u{e4}; it's \"c\\td\"";
+        assert_eq!(problem.to_string(), shown);
+    }
 }

@@ -29,7 +29,7 @@ mod start;
 mod world;
 mod world_file;
 
-pub use crate::fields::{Place, Problem, Problems, Quantity, suggest};
+pub use crate::fields::{OneLine, Place, Problem, Problems, Quantity, suggest};
 pub use inputs::{Content, Inputs, Loader, Override, Request, Source};
 
 use crate::Scenario;
