@@ -22,16 +22,28 @@ pub enum Colour {
 
 /// The most diagnostics shown of a file. Users read only the first ones, and a fix often removes several.
 const MOST: usize = 20;
+/// When so many lines are shown, no further diagnostic is: they fill a screen.
+const SCREEN: usize = 60;
 
 /// The diagnostics of one file in the order given, each as a few lines with an empty one after it. Lines that are too
-/// long for a screen are cut. `name` is the name of the file in the text.
+/// long for a screen are cut. If they do not fit on a screen, warnings are left out first. `name` is the name of the file
+/// in the text.
 #[must_use]
 pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colour) -> String {
     let visible = visible(source);
     let file = SimpleFile::new(name, visible.as_str());
     let is_cut = excerpt::is_needed(&visible);
-    let mut text = String::new();
-    for diagnostic in diagnostics.iter().take(MOST) {
+    let mut parts: Vec<(usize, String)> = Vec::new();
+    let mut lines = 0;
+    let errors_first = [Severity::Error, Severity::Warning].into_iter();
+    let errors_first = errors_first.flat_map(|severity| {
+        let numbered = diagnostics.iter().enumerate();
+        numbered.filter(move |(_, diagnostic)| diagnostic.severity() == severity)
+    });
+    for (index, diagnostic) in errors_first.take(MOST) {
+        if lines >= SCREEN {
+            break;
+        }
         let mut shown = shown(diagnostic, source);
         let part = match is_cut {
             false => written(&file, &shown, colour),
@@ -44,9 +56,14 @@ pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colo
                 written(&excerpt, &shown, colour)
             }
         };
-        text.push_str(&part.unwrap_or_else(|| format!("{}: {}\n", shown.message, name)));
+        let part = part.unwrap_or_else(|| format!("{}: {}\n", shown.message, name));
+        lines += part.matches('\n').count();
+        parts.push((index, part));
     }
-    if let more @ 1.. = diagnostics.len().saturating_sub(MOST) {
+    let more = diagnostics.len() - parts.len();
+    parts.sort_by_key(|&(index, _)| index);
+    let mut text: String = parts.into_iter().map(|(_, part)| part).collect();
+    if more > 0 {
         text.push_str(&format!("{more} more problems of {name} are not shown\n\n"));
     }
     text
@@ -189,6 +206,28 @@ mod tests {
         let errors: Vec<Diagnostic> = (0..3000).map(error).collect();
         let text = render("deep.starl", &source, &errors, Colour::Off);
         assert!(text.len() < 100_000, "{}", text.len());
-        assert!(text.ends_with("2980 more problems of deep.starl are not shown\n\n"));
+        assert!(text.lines().count() < SCREEN + 12, "{text}");
+        let left = 3000 - text.matches("error[E0120]").count();
+        let end = format!("{left} more problems of deep.starl are not shown\n\n");
+        assert!(text.ends_with(&end), "{text}");
+    }
+
+    /// They were 20 warnings on 164 lines, without the error.
+    #[test]
+    fn warnings_of_deep_nesting_do_not_hide_its_error() {
+        let source = "x\n".repeat(100);
+        let problem = |code, at: u32| {
+            let span = Span {
+                start: at,
+                end: at + 1,
+            };
+            Diagnostic::new(code, span, "problem")
+        };
+        let warnings = (0..99).map(|line| problem(Code::HeaderColon, 2 * line));
+        let all: Vec<_> = warnings.chain([problem(Code::TooDeep, 198)]).collect();
+        let text = render("deep.starl", &source, &all, Colour::Off);
+        assert!(text.lines().count() < SCREEN + 12, "{text}");
+        let (warning, error) = (text.find("deep.starl:1:1"), text.find("error[E0120]"));
+        assert!(warning.is_some() && warning < error, "{text}");
     }
 }
