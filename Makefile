@@ -200,10 +200,10 @@ bench: $(RELEASE) wasm-module
 	$(RELEASE) bench radio
 	$(RELEASE) bench race
 
-# The whole workspace, because then the crates have the features with which `make unit` builds them. Builds the
-# example of starl-trace too.
+# The whole workspace, because then all packages have the features with which `make unit` builds them, and nothing is
+# built again. Builds the examples too.
 .PHONY: $(STARL) $(RELEASE)
 $(STARL):
-	cargo build --locked --profile test --workspace --exclude starl-fuzz --features starl/zenoh --bins --examples
+	cargo build --locked --profile test --workspace --features starl/zenoh --bin starl --examples
 $(RELEASE):
 	cargo build --locked --release
