@@ -115,20 +115,23 @@ examples: $(STARL)
 	python3 tools/check_pictures.py $(STARL)
 	python3 tools/verify_random.py $(STARL) --count 25
 
-# The emulated devices, driven by libraries that are not ours.
+# The emulated devices, driven by libraries that are not ours. The clients mostly wait, and each starts devices of its own
+# at free ports, so that four run at once, the longest first. The output of a client is shown when it ends.
 FOREIGN = platforms/starl-emulate/tests/foreign
+EMULATOR = $(CARGO_TARGET_DIR)/debug/examples/devices
+CLIENTS = mavlink_client crazyflie_client ros2_client mavsdk_autopilot create mavsdk_client natnet_client vrpn_client
+.PHONY: $(CLIENTS:%=client-%) client-ardrone
 devices: $(STARL)
-	$(VENV)/python $(FOREIGN)/create.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/natnet_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/vrpn_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/mavlink_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/mavsdk_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/mavsdk_autopilot.py $(STARL)
-	$(VENV)/python $(FOREIGN)/crazyflie_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/ros2_client.py $(CARGO_TARGET_DIR)/debug/examples/devices \
-		$(CARGO_TARGET_DIR)/debug/examples/drive
 	cd $(FOREIGN) && npm ci --silent --no-audit --no-fund
-	node --no-deprecation $(FOREIGN)/ardrone.mjs $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(MAKE) --no-print-directory --jobs=4 --output-sync $(CLIENTS:%=client-%) client-ardrone
+
+$(CLIENTS:%=client-%): DRIVEN = $(EMULATOR)
+client-mavsdk_autopilot: DRIVEN = $(STARL)
+client-ros2_client: DRIVEN = $(EMULATOR) $(CARGO_TARGET_DIR)/debug/examples/drive
+$(CLIENTS:%=client-%): client-%:
+	$(VENV)/python $(FOREIGN)/$*.py $(DRIVEN)
+client-ardrone:
+	node --no-deprecation $(FOREIGN)/ardrone.mjs $(EMULATOR)
 
 # A small fleet over Zenoh loses no datagram. `make nightly` tries a hundred robots.
 crowd: $(STARL)
