@@ -149,8 +149,7 @@ faults: $(STARL)
 	tools/workloads.sh $(STARL) tools/storage.txt --seeds 25 --out target/faults
 	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
 		--out target/faults
-	$(STARL) test search-building --seeds 1 --profile partitions,chaos --out target/faults
-	$(STARL) test intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
+	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
 	$(STARL) test crossing diffusion --seeds 5 --profile calm,clocks --out target/faults
 
 # The long tests: those that `cargo test` ignores, and the two parts above with more seeds.
