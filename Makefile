@@ -19,11 +19,14 @@ test: setup check unit portable wasm web python trace schema examples devices fa
 setup:
 	tools/setup.sh
 
+# In the profile of the tests, so that clippy and the tests share build scripts and derive macros.
 check:
 	cargo fmt --all --check
-	cargo clippy --locked --workspace --all-targets --all-features -- --deny warnings
+	cargo clippy --locked --profile test --workspace --all-targets --all-features -- --deny warnings
 	$(VENV)/typos
 
+# Tests of emulated robots and of fleets mostly wait, so that four run on two cores.
+unit: export RUST_TEST_THREADS ?= $(shell echo $$((2 * $$(getconf _NPROCESSORS_ONLN))))
 unit:
 	cargo test --locked --workspace --features starl/zenoh
 
