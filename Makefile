@@ -70,13 +70,14 @@ VIEWER = apps/starl-py/python/starl/_viewer
 WHEEL_PROFILE = release
 wheel: setup viewer
 	rm -f $(CARGO_TARGET_DIR)/wheels/starl-*.whl
-	$(VENV)/maturin build --locked --profile $(WHEEL_PROFILE) --manifest-path apps/starl-py/Cargo.toml \
+	$(WHEEL_ENVIRONMENT) $(VENV)/maturin build --locked --profile $(WHEEL_PROFILE) --manifest-path apps/starl-py/Cargo.toml \
 		--out $(CARGO_TARGET_DIR)/wheels
 
 # The package for Python as its users get it: the wheel in an environment of its own.
 PYTHON_TESTS = $(CARGO_TARGET_DIR)/python-tests
-# It is built without optimisation, with overflow checks and assertions.
-python: WHEEL_PROFILE = dev
+# It is built in the profile of the tests, so with overflow checks and assertions, and of the crates that they have built.
+python: WHEEL_PROFILE = test
+python: WHEEL_ENVIRONMENT = CARGO=$(abspath tools/workspace_cargo.sh)
 python: wheel $(STARL)
 	rm -rf $(PYTHON_TESTS)
 	python3 -m venv $(PYTHON_TESTS)
