@@ -13,8 +13,8 @@ RELEASE = $(CARGO_TARGET_DIR)/release/starl
 run:
 	cargo run --release --locked -- run race
 
-# Everything that continuous integration runs.
-test: setup check unit portable wasm web python trace schema examples devices faults docs deny
+# Everything that continuous integration runs. The page comes before the first build of the command, which contains it.
+test: setup page check unit portable wasm web python trace schema examples devices faults docs deny
 
 setup:
 	tools/setup.sh
