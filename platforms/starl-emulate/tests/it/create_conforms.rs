@@ -171,7 +171,10 @@ fn killed_driver_leaves_a_robot_that_stops() {
         }
     };
     let mut child = std::process::Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "killed_driver_leaves_a_robot_that_stops"])
+        .args([
+            "--exact",
+            "create_conforms::killed_driver_leaves_a_robot_that_stops",
+        ])
         .env(LINE, emulated.path())
         .stdout(std::process::Stdio::null())
         .spawn()

@@ -1,13 +1,11 @@
 //! The trace of a robot shows where the robot was when its program acted.
 
-mod support;
-
+use crate::support::{Idle, Notes, at, setup};
 use starl_core::event::Event;
 use starl_core::{Point, Pose, Program, Robot};
 use starl_node::link::Channel;
 use starl_node::motors::Report;
 use starl_node::robot::{Core, Incoming};
-use support::{Idle, Notes, at, setup};
 
 /// Finishes where it is to be.
 #[derive(Clone, Debug, starl_core::Primitives)]

@@ -1,7 +1,6 @@
 //! A robot discovers obstacles that its map lacks, by sight and by its bumper, and forgets those that have expired.
 
-mod support;
-
+use crate::support::{Idle, Notes, at, setup};
 use starl_core::event::{Event, Level};
 use starl_core::geometry::Obstacle;
 use starl_core::sensor::Contact;
@@ -11,7 +10,6 @@ use starl_node::link::Channel;
 use starl_node::motors::Report;
 use starl_node::robot::MapObstacle;
 use starl_node::robot::{Core, Incoming, Setup};
-use support::{Idle, Notes, at, setup};
 
 /// Logs how many obstacles it knows.
 #[derive(Clone, Debug, starl_core::Primitives)]

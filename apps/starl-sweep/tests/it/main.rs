@@ -1,0 +1,4 @@
+//! The tests of `starl-sweep`, in one binary so that they link once.
+
+mod campaign;
+mod tasks;

@@ -1,0 +1,4 @@
+//! The tests of `starl-create`, in one binary so that they link once.
+
+mod motion;
+mod wire;

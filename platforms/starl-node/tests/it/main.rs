@@ -1,0 +1,6 @@
+//! The tests of `starl-node`, in one binary so that they link once.
+
+mod conforms;
+mod hidden_obstacles;
+mod poses_on_record;
+mod support;
