@@ -38,6 +38,35 @@ fn resources_of_a_crashed_robot_are_free_after_its_lease() {
 }
 
 #[test]
+fn copies_of_the_requests_of_a_holder_that_has_crashed_do_not_keep_its_lease() {
+    let wire = Wire {
+        duplication: 1.0,
+        late: (0.2, 10_000),
+        ..Wire::perfect()
+    };
+    let mut times = Vec::new();
+    for seed in 0..40 {
+        let mut world = world(5, seed, wire.clone(), false);
+        world.run_for(SECOND * 5);
+        world.command(3, acquire(&["a"]));
+        world.run_for(SECOND * 15);
+        assert!(mutex(&world, 3).crit(), "seed {seed}");
+        world.crash(3);
+        let since = world.now;
+        world.command(0, acquire(&["a"]));
+        while !mutex(&world, 0).crit() {
+            world.run_for(Duration::from_millis(50));
+            assert!(world.now.since(since) < SECOND * 60, "seed {seed}");
+        }
+        times.push(world.now.since(since));
+    }
+    times.sort_unstable();
+    let (median, longest) = (times[times.len() / 2], times[times.len() - 1]);
+    println!("median {median}, longest {longest}");
+    assert!(median < SECOND * 4, "{median}");
+}
+
+#[test]
 fn a_holder_that_is_cut_off_knows_when_its_lease_has_ended() {
     let mut world = calm(4);
     world.command(3, acquire(&["a"]));

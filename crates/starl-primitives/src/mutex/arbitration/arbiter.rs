@@ -22,12 +22,20 @@ use super::standing::standings;
 use alloc::collections::BTreeMap;
 use starl_core::{Random, RobotId};
 
+/// Whether a round of asking is no later than another, so that a message of it is a copy. Rounds that are further apart than
+/// copies can be are those of a corruption.
+fn is_copy(round: u32, other: u32) -> bool {
+    other.wrapping_sub(round) < 64
+}
+
 /// The state of an arbiter.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Arbiter {
     entries: BTreeMap<RobotId, Entry>,
     /// The last request of each robot that is over.
     finished: BTreeMap<RobotId, RequestId>,
+    /// The last request of each robot whose lease ended in silence, and its last round of asking.
+    expired: BTreeMap<RobotId, (RequestId, u32)>,
     pub numbers: Numbers,
 }
 
@@ -56,15 +64,17 @@ impl Arbiter {
                 } else {
                     is_repeated = true;
                     is_news = entry.wish.clock != wish.clock || entry.is_granted || wish.is_entered;
-                    entry.until = terms.until();
+                    // Late copies must not keep the lease of a robot that is gone.
+                    if !is_copy(wish.round, entry.wish.round) {
+                        entry.until = terms.until();
+                        entry.wish.round = wish.round;
+                    }
                     entry.heard = terms.now;
                     if terms.lease.is_none() {
                         entry.told = None;
                     }
                     entry.wish.clock = wish.clock;
                     entry.wish.is_entered = wish.is_entered;
-                    // An earlier one only makes the robot believe in the lease for less long.
-                    entry.wish.round = wish.round;
                     entry.wish.number = entry.wish.number.max(wish.number);
                     if entry.is_granted {
                         // It may have given back some of it.
@@ -80,6 +90,10 @@ impl Arbiter {
                 return inquire(from, entry, false, post);
             }
             _ => {
+                let expired = self.expired.get(&from).filter(|(over, _)| *over == id);
+                if expired.is_some_and(|&(_, round)| is_copy(wish.round, round)) {
+                    return;
+                }
                 self.entries.insert(from, Entry::new(wish, terms));
             }
         }
@@ -238,6 +252,7 @@ impl Arbiter {
     pub fn keep_only(&mut self, everyone: &[RobotId]) {
         self.entries.retain(|peer, _| everyone.contains(peer));
         self.finished.retain(|peer, _| everyone.contains(peer));
+        self.expired.retain(|peer, _| everyone.contains(peer));
     }
 
     /// Adds the granted and the requested resources.
@@ -254,6 +269,9 @@ impl Arbiter {
         self.finished.retain(|_, _| random.chance(0.5));
         for id in self.finished.values_mut() {
             id.number = u64::from(random.bits());
+        }
+        for (_, round) in self.expired.values_mut() {
+            *round = random.bits();
         }
         for entry in self.entries.values_mut() {
             entry.is_granted = random.chance(0.5);
@@ -343,9 +361,14 @@ impl Arbiter {
     fn expire(&mut self, terms: Terms) {
         if terms.lease.is_some() {
             let longest = terms.until();
-            self.entries.retain(|_, entry| {
+            let expired = &mut self.expired;
+            self.entries.retain(|&robot, entry| {
                 entry.until = entry.until.min(longest);
-                entry.until > terms.now
+                let is_over = entry.until <= terms.now;
+                if is_over {
+                    expired.insert(robot, (entry.wish.id, entry.wish.round));
+                }
+                !is_over
             });
         }
     }
