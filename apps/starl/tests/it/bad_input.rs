@@ -288,12 +288,16 @@ fn a_pipe_as_trace_is_not_waited_for() {
 #[cfg(unix)]
 fn a_pipe_without_a_reader_cannot_be_an_output() {
     let folder = folder("pipe_as_output");
-    let pipe = folder.join("pipe");
-    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
-    assert!(made.is_ok_and(|status| status.success()));
-    for option in ["--trace", "--plot"] {
-        let run = ["run", "race", option, "pipe"];
-        refused(&folder, &run, &["pipe", "no program reads"]);
+    for (option, name) in [("--trace", "pipe"), ("--plot", "pipe.svg")] {
+        let made = std::process::Command::new("mkfifo")
+            .arg(folder.join(name))
+            .status();
+        assert!(made.is_ok_and(|status| status.success()));
+        refused(
+            &folder,
+            &["run", "race", option, name],
+            &[name, "no program reads"],
+        );
     }
 }
 
