@@ -60,10 +60,8 @@ fn the_example_does_as_it_says() {
     let text = include_str!("../../../../examples/primitives/broadcast.starl");
     let mut world = World::of(&compile(text), 4);
     world.steps(200);
-    let first = world.get(0, "heard").to_string();
-    assert_eq!(first.matches("says").count(), 20, "{first}");
-    assert_eq!(first.matches("answers").count(), 20, "{first}");
-    for robot in 1..4 {
-        assert_eq!(world.get(robot, "heard").to_string(), first);
+    for robot in 0..4 {
+        // 20 messages of the robots' own, and an answer to each.
+        assert_eq!(world.get(robot, "heard").to_string(), "40");
     }
 }
