@@ -72,7 +72,7 @@ impl Avoidance {
         }
     }
 
-    /// Distance between centres, metres, within which neighbours must be passed to [`Avoidance::guide`].
+    /// Distance between centres, metres, within which neighbours must be passed to avoidance when it guides the robot.
     pub fn range(&self, body: &Body, limits: &Limits) -> f64 {
         let room = Pace::new(limits, self.period).room_needed + self.options.margin;
         // A neighbour that comes as fast is known a period late.
