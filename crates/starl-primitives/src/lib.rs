@@ -14,6 +14,7 @@ mod alone;
 pub mod barrier;
 pub mod broadcast;
 mod channel;
+mod copies;
 pub mod election;
 pub mod failure_detector;
 pub mod geocast;

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use starl_core::{Duration, Random, RobotId, Time};
 
 /// Claims that are remembered; those before are too old to lead by.
-pub(super) const MOST_CLAIMS: usize = 64;
+const MOST_CLAIMS: usize = 64;
 
 /// A claim to an epoch, and the robots that have granted it.
 #[derive(Clone, Debug)]

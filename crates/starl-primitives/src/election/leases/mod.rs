@@ -26,7 +26,8 @@ use super::epoch::Epoch;
 use super::options::no_later;
 use super::packet::{Claim, Packet};
 use super::rules::{Leadership, Rules, Scene};
-use claim::{MOST_CLAIMS, Standing};
+use crate::copies::is_copy;
+use claim::Standing;
 use recovery::Stage;
 use starl_core::{Duration, Port, Random, Robot, RobotId, Time};
 
@@ -81,12 +82,6 @@ struct Promise {
 struct Shown {
     epoch: Epoch,
     until: Time,
-}
-
-/// Whether a claim is no later than another to the same epoch. Numbers that are further apart than any late copy are
-/// those of a corruption.
-fn is_no_later(number: u32, other: u32) -> bool {
-    other.wrapping_sub(number) < MOST_CLAIMS as u32
 }
 
 impl Leases {
@@ -150,7 +145,7 @@ impl Leases {
 
     /// Whether a claim to the latest epoch that was shown is no later than one that was heard.
     fn has_heard(&self, number: u32) -> bool {
-        is_no_later(number, self.heard)
+        is_copy(number, self.heard)
     }
 
     /// There is no leader any more, as far as this robot knows.

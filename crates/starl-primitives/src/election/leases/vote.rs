@@ -2,7 +2,8 @@
 //!
 //! Invariant: as long as a promise binds, this robot votes for no other robot, nor for itself.
 
-use super::{Leases, Promise, is_no_later};
+use super::{Leases, Promise};
+use crate::copies::is_copy;
 use crate::election::epoch::Epoch;
 use crate::election::packet::{Claim, Packet};
 use crate::election::rules::Scene;
@@ -46,7 +47,7 @@ impl Leases {
     /// otherwise it would outbid a candidate that had to wait for the same promise.
     fn bind(&mut self, scene: &Scene<'_, '_>, claim: &Claim) {
         let &Claim { epoch, number, .. } = claim;
-        if epoch == self.promise.epoch && is_no_later(number, self.promise.number) {
+        if epoch == self.promise.epoch && is_copy(number, self.promise.number) {
             // A late copy: it would bind the voter to a leader that is gone.
             return;
         }

@@ -19,14 +19,9 @@ use super::entry::{Entry, Terms, inquire, is_later};
 use super::packet::{Behind, Packet, Wish};
 use super::saving::Kept;
 use super::standing::standings;
+use crate::copies::is_copy;
 use alloc::collections::BTreeMap;
 use starl_core::{Random, RobotId};
-
-/// Whether a round of asking is no later than another, so that a message of it is a copy. Rounds that are further apart than
-/// copies can be are those of a corruption.
-fn is_copy(round: u32, other: u32) -> bool {
-    other.wrapping_sub(round) < 64
-}
 
 /// The state of an arbiter.
 #[derive(Clone, Debug, Default)]
