@@ -126,9 +126,11 @@ pub trait Model: Debug + Send + Sync {
     /// remembers from one estimate to the next.
     fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;
 
-    /// Uses an estimate while the robot should be at rest; does nothing by default.
-    fn rest(&self, tracking: &mut Tracking, _: &Estimate) {
+    /// The command that brings the robot to rest within its braking way and keeps it there, to be driven until the next
+    /// estimate. By default it is [`Command::Stop`].
+    fn rest(&self, tracking: &mut Tracking, _: &Estimate) -> Command {
         tracking.interrupt();
+        Command::Stop
     }
 
     /// Whether the robot has long been pushed, as by wind, harder than it can hold against, by what its tracker

@@ -84,11 +84,10 @@ impl Pilot {
                 return command;
             }
             Wish::Drive(_) | Wish::Halt => {
-                model.rest(&mut self.tracking, estimate);
                 if let Some(avoidance) = &mut self.avoidance {
                     avoidance.interrupt();
                 }
-                return Command::Stop;
+                return model.rest(&mut self.tracking, estimate);
             }
         };
         let body = model.body();

@@ -60,6 +60,8 @@ const MOST_PUSH: f64 = 1.5;
 const OVERPOWERED_AFTER: f64 = 2.0;
 /// Climb per height left, 1/s.
 const HEIGHT_GAIN: f64 = 1.2;
+/// Up to this speed, metres per second, a drone that should be at rest is left to hover by itself.
+const HOVERING_SPEED: f64 = 0.2;
 
 impl Gains {
     /// See [`crate::Limits::stopping_distance`]. At low speeds the loops are linear and the
@@ -109,6 +111,11 @@ impl Gains {
 
     /// One step of tracking.
     pub fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command {
+        tracking.brakes_from = None;
+        self.drive(tracking, estimate, goal)
+    }
+
+    fn drive(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command {
         let period = tracking.period(estimate);
         let Pose { position, yaw, .. } = estimate.pose;
         let part = if tracking.phase == FLYING { 0.5 } else { 0.9 };
@@ -146,14 +153,24 @@ impl Gains {
         }
     }
 
-    /// The drone hovers by itself. The push of the wind is observed nevertheless, because wind that drives the drone
-    /// off its path makes it stop and replan repeatedly.
-    pub fn rest(&self, tracking: &mut Tracking, estimate: &Estimate) {
-        let period = tracking.period(estimate);
-        match estimate.pose.position.z < 0.5 * self.lowest {
-            true => tracking.interrupt(),
-            false => drop(self.observe(tracking, estimate, period)),
+    /// A slow drone hovers by itself. A fast one is braked first: by itself it would glide farther than its braking way,
+    /// in which avoidance expects it to stop. The push of the wind is observed even while it hovers, because wind that
+    /// drives the drone off its path makes it stop and replan repeatedly.
+    pub fn rest(&self, tracking: &mut Tracking, estimate: &Estimate) -> Command {
+        let position = estimate.pose.position;
+        let is_high = position.z >= 0.5 * self.lowest;
+        if is_high && estimate.twist.linear.planar_length() > HOVERING_SPEED {
+            let start = *tracking.brakes_from.get_or_insert(position);
+            let goal = Goal::stop_at(start.at_height(position.z));
+            return self.drive(tracking, estimate, &goal);
         }
+        tracking.brakes_from = None;
+        let period = tracking.period(estimate);
+        match is_high {
+            true => drop(self.observe(tracking, estimate, period)),
+            false => tracking.interrupt(),
+        }
+        Command::Stop
     }
 
     /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to. Returns the push

@@ -134,47 +134,58 @@ fn stands_still_at_its_target_despite_noise() {
     }
 }
 
+/// Lets robots of this model travel for 20 s and then stop as `halt` says. Returns the distance in metres from where they
+/// were that none of them exceeds.
+fn halts_within(model: &dyn Model, halt: impl Fn(&mut Run<'_>, Point)) -> f64 {
+    let periods = [20, 50, 100].map(Duration::from_millis);
+    let mut farthest: f64 = 0.0;
+    for (seed, period) in periods.into_iter().cycle().take(60).enumerate() {
+        let mut random = Random::keyed(seed as u64, &[8]);
+        let positioning = Positioning {
+            period,
+            noise: [0.0; 3],
+        };
+        let start = start(model, &mut random);
+        let mut run = Run::new(model, start, positioning, 0);
+        let far = model
+            .body()
+            .reachable(Point::polar(100.0, random.between(-3.0, 3.0)));
+        for _ in 0..20_000 / period.0.div_euclid(1_000_000) {
+            run.turn(&Goal::stop_at(far));
+        }
+        // The estimate comes a period late at worst.
+        let here = run.state.pose.position;
+        run.turn(&Goal::stop_at(far));
+        for _ in 0..5_000 / period.0.div_euclid(1_000_000) {
+            halt(&mut run, here);
+            farthest = farthest.max(run.state.pose.position.planar_distance(here));
+        }
+    }
+    farthest
+}
+
 #[test]
 fn halts_within_its_stopping_distance() {
-    let periods = [20, 50, 100].map(Duration::from_millis);
     for model in every_model_and_variants() {
-        let mut farthest: f64 = 0.0;
-        for (seed, period) in periods.into_iter().cycle().take(60).enumerate() {
-            let mut random = Random::keyed(seed as u64, &[8]);
-            let positioning = Positioning {
-                period,
-                noise: [0.0; 3],
-            };
-            let start = start(&*model, &mut random);
-            let mut run = Run::new(&*model, start, positioning, 0);
-            let far = model
-                .body()
-                .reachable(Point::polar(100.0, random.between(-3.0, 3.0)));
-            for _ in 0..20_000 / period.0.div_euclid(1_000_000) {
-                run.turn(&Goal::stop_at(far));
-            }
-            // Now it is to be where it already is; the estimate comes a period late at worst.
-            let here = run.state.pose.position;
-            run.turn(&Goal::stop_at(far));
-            for _ in 0..5_000 / period.0.div_euclid(1_000_000) {
-                run.turn(&Goal::stop_at(here));
-                farthest = farthest.max(run.state.pose.position.planar_distance(here));
-            }
-        }
         let bound = model.limits().stopping_distance;
-        println!(
-            "{}: halts within {farthest:.3} of {bound:.3} m",
-            model.name()
-        );
-        assert!(
-            farthest <= bound,
-            "{}: {farthest} m > {bound} m",
-            model.name()
-        );
-        assert!(
-            farthest >= 0.2 * bound,
-            "{}: the bound is idle: {farthest} m",
-            model.name()
-        );
+        let ways: [(&str, fn(&mut Run<'_>, Point)); 2] = [
+            ("told to be where it is", |run, here| {
+                run.turn(&Goal::stop_at(here));
+            }),
+            ("told to rest", |run, _| run.rest()),
+        ];
+        for (told, halt) in ways {
+            let farthest = halts_within(&*model, halt);
+            let name = model.name();
+            println!("{name}, {told}: halts within {farthest:.3} of {bound:.3} m");
+            assert!(
+                farthest <= bound,
+                "{name}, {told}: {farthest} m > {bound} m"
+            );
+            assert!(
+                farthest >= 0.2 * bound,
+                "{name}, {told}: the bound is idle: {farthest} m"
+            );
+        }
     }
 }

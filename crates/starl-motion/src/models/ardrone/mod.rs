@@ -249,8 +249,8 @@ impl Model for Ardrone {
         self.gains.track(tracking, estimate, goal)
     }
 
-    fn rest(&self, tracking: &mut Tracking, estimate: &Estimate) {
-        self.gains.rest(tracking, estimate);
+    fn rest(&self, tracking: &mut Tracking, estimate: &Estimate) -> Command {
+        self.gains.rest(tracking, estimate)
     }
 
     fn is_overpowered(&self, tracking: &Tracking) -> bool {

@@ -192,8 +192,8 @@ impl<'a> Run<'a> {
         let estimate = self
             .positioning
             .estimate(&self.state, self.now, &mut self.random);
-        self.model.rest(&mut self.tracking, &estimate);
-        self.go_on(&Command::Stop);
+        let command = self.model.rest(&mut self.tracking, &estimate);
+        self.go_on(&command);
     }
 
     fn go_on(&mut self, command: &Command) {
