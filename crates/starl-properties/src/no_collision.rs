@@ -3,7 +3,8 @@
 //! There are three independent sources: the collisions that the host reports, bodies that overlap in the
 //! recorded poses, and bodies that pass through something from one recorded pose to the next. Robots are compared only
 //! at poses of the same moment. All contacts from the first touch until the two are [`APART`] are one collision,
-//! reported once. Contacts of a robot that has crashed in the air and falls do not count.
+//! reported once. Contacts of a robot that has crashed in the air and falls do not count, nor those with robots on which it
+//! comes to lie.
 
 use super::bodies::{Sweep, gap};
 use super::passing::{self, Passing, Way};
@@ -123,6 +124,19 @@ impl NoCollision {
         self.falls.get(&robot).is_some_and(|fall| fall.lasts(at))
     }
 
+    /// Whether a robot that has crashed in the air lies on another one, or on others of the same height: it touches them
+    /// whenever one of them moves.
+    fn lies_on(&self, robot: RobotId, other: RobotId) -> bool {
+        let top = |other: RobotId| {
+            let place = self.positions.get(other.index()).copied().flatten();
+            place.map(|place| place.z + self.bodies[other.index()].height)
+        };
+        let place = self.positions.get(robot.index()).copied().flatten();
+        let is_down = |fall: &Fall| fall.restarted.is_none();
+        self.falls.get(&robot).is_some_and(is_down)
+            && matches!((place, top(other)), (Some(place), Some(top)) if place.z + OVERLAP >= top)
+    }
+
     /// Notes how low one is that has crashed in the air. Once it has started again and rises it falls no more.
     fn follow_fall(&mut self, at: Time, robot: RobotId, height: f64) {
         let Some(fall) = self.falls.get_mut(&robot) else {
@@ -176,8 +190,13 @@ impl NoCollision {
         if !is_new {
             return;
         }
-        let other_falls = matches!(with, Hit::Robot(other) if self.falls(other, at));
-        if other_falls || self.falls(robot, at) {
+        let is_of_fall = match with {
+            Hit::Robot(other) => {
+                self.falls(other, at) || self.lies_on(robot, other) || self.lies_on(other, robot)
+            }
+            Hit::Obstacle(_) => false,
+        };
+        if is_of_fall || self.falls(robot, at) {
             return self.excused.note(NO_COLLISION, Excuse::Fall);
         }
         let near = place.map_or(String::new(), |place| format!(" near {place}"));

@@ -129,6 +129,35 @@ fn a_robot_under_a_falling_drone_has_not_collided() {
     assert_none(&story.verdict(3000));
 }
 
+/// A flyer crashes and comes to lie on a robot, and a second later another one meets it.
+fn wreck_on_a_robot(wreck: f64) -> Story {
+    let mut story = Story::of(&[GROUND, FLYER, GROUND]);
+    story.stays(0, 3000, 0, at(0.0, 0.0));
+    story.stays(0, 500, 1, Point::new(0.1, 0.0, 0.5));
+    story.fault(550, Some(1), "crash");
+    let low = Point::new(0.1, 0.0, wreck);
+    story.walks(600, 1500, 1, Point::new(0.1, 0.0, 0.5), low);
+    story.stays(1600, 3000, 1, low);
+    story.walks(0, 3000, 2, at(0.69, 0.0), at(0.601, 0.0));
+    story.collided(1500, 0, WITH_ROBOT_1);
+    story.collided(2500, 2, WITH_ROBOT_1);
+    story
+}
+
+#[test]
+fn a_wreck_that_lies_on_one_robot_and_sinks_onto_the_next_has_not_collided() {
+    assert_none(&wreck_on_a_robot(0.1).verdict(3000));
+}
+
+#[test]
+fn a_robot_that_runs_into_a_wreck_beside_it_collides() {
+    let verdict = wreck_on_a_robot(0.05).verdict(3000);
+    assert!(
+        verdict.iter().any(|found| found.at == support::ms(2500)),
+        "{verdict:#?}"
+    );
+}
+
 /// A flyer over a ground robot that crashes at one height, starts again at a lower one, and sinks on until it is on the
 /// robot.
 fn restart_in_the_fall((top, high): (f64, f64), restarts: u64, lands: u64) -> Story {
