@@ -117,11 +117,12 @@ trace: $(STARL)
 schema: $(STARL)
 	$(VENV)/python tools/check_schema.py $(STARL)
 
-# Every example reaches its goal, in calm and in bad weather, and looks as in its picture; traces of random runs are
-# judged as the runs were.
+# Every example reaches its goal, in calm and in bad weather, and looks as in its picture; commands print what the pages
+# show; traces of random runs are judged as the runs were.
 examples: $(STARL)
 	tools/examples.sh $(STARL)
 	python3 tools/check_pictures.py $(STARL)
+	$(VENV)/python tools/check_transcripts.py $(STARL)
 	python3 tools/verify_random.py $(STARL) --count 25
 
 # The emulated devices, driven by libraries that are not ours. The clients mostly wait, and each starts devices of its own
