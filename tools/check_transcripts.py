@@ -25,7 +25,7 @@ WORK = ROOT / "target" / "transcripts"
 PIECE = re.compile(
     r"^<!-- (?P<note>.*?) -->$|^```(?P<kind>\w*)\n(?P<text>.*?)^```$|^<!--.*?-->$", re.MULTILINE | re.DOTALL
 )
-# What differs from one machine to the next, and what replaces it on both sides.
+# Times of computing differ from one machine to the next. Both sides lose them.
 COMPUTING = [
     (re.compile(r"simulated in .*"), "simulated"),
     (re.compile(r"^[\d,]+ runs? in [\d.]+ s on .*\n?", re.MULTILINE), ""),

@@ -3,8 +3,8 @@
 //! There are three independent sources: the collisions that the host reports, bodies that overlap in the
 //! recorded poses, and bodies that pass through something from one recorded pose to the next. Robots are compared only
 //! at poses of the same moment. All contacts from the first touch until the two are [`APART`] are one collision,
-//! reported once. Contacts of a robot that has crashed in the air and falls do not count, nor those with robots on which it
-//! comes to lie.
+//! reported once. Contacts of a robot that has crashed in the air and falls do not count, nor those with robots that it
+//! lands on.
 
 use super::bodies::{Sweep, gap};
 use super::passing::{self, Passing, Way};

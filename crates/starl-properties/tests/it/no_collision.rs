@@ -129,7 +129,7 @@ fn a_robot_under_a_falling_drone_has_not_collided() {
     assert_none(&story.verdict(3000));
 }
 
-/// A flyer crashes and comes to lie on a robot, and a second later another one meets it.
+/// A flyer crashes and lands on a robot, and a second later another one meets it.
 fn wreck_on_a_robot(wreck: f64) -> Story {
     let mut story = Story::of(&[GROUND, FLYER, GROUND]);
     story.stays(0, 3000, 0, at(0.0, 0.0));
