@@ -16,8 +16,10 @@ while read -r name scenario options; do
     case $name in "" | "#"*) continue ;; esac
     echo "$name"
     status=0
-    # shellcheck disable=SC2086 # options are words
-    "$starl" test "$here/../examples/primitives/$scenario.toml" $options "$@" </dev/null || status=$?
+    # The options are words of a shell, some of them in quotes.
+    eval "words=($options)"
+    # shellcheck disable=SC2154 # words is set above
+    "$starl" test "$here/../examples/primitives/$scenario.toml" "${words[@]}" "$@" </dev/null || status=$?
     [ "$status" -le 1 ] || exit "$status"
     [ "$status" -eq 0 ] || worst=1
 done <"$list"

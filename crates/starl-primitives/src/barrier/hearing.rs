@@ -53,8 +53,10 @@ impl Barrier {
                 waits: said.waits,
                 knows: said.knows,
             };
-            // Never back within a life, but a number that is far too great does not stay, e.g. after a corruption.
-            if new.place() > known.place() || known.generation > self.generation + 1 {
+            // Never back within a life, but a number that is far too great does not stay, e.g. after a corruption. A
+            // robot that does not know its generation cannot tell that a number is too great.
+            let is_absurd = self.knows && known.generation > self.generation + 1;
+            if new.place() > known.place() || is_absurd {
                 *known = new;
             }
         }
@@ -203,5 +205,37 @@ impl Peer {
     /// The same, if it knows its generation.
     pub(super) fn certain(&self) -> Option<&Words> {
         self.said().filter(|said| said.knows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Options;
+    use super::*;
+    use crate::alone::alone;
+    use alloc::collections::BTreeMap;
+
+    #[test]
+    fn a_late_word_replaces_no_later_one_before_a_robot_knows_its_generation() {
+        alone(|robot| {
+            let mut barrier = Barrier::new("gate", None, Options::default());
+            barrier.arrive(robot);
+            let life = barrier.incarnation.of(robot);
+            let said = |generation| Packet {
+                incarnation: 7,
+                generation,
+                waits: true,
+                knows: true,
+                heard: BTreeMap::from([(robot.id(), life)]),
+                asks: BTreeMap::new(),
+                missing: Vec::new(),
+                again: false,
+            };
+            let (late, latest) = (said(1), said(37));
+            barrier.hear(robot, RobotId(1), &latest);
+            barrier.hear(robot, RobotId(1), &late);
+            let heard = barrier.said(RobotId(1)).map(|said| said.generation);
+            assert_eq!(heard, Some(37));
+        });
     }
 }

@@ -15,6 +15,9 @@ use starl_core::{Destination, Robot};
 /// A robot that has heard the leader within this number of ticks votes for no other.
 const LOYALTY: u32 = 6;
 
+/// A robot that is refused after it has asked this often without a leader accepts every round of the leader again.
+const MANY_ASKS: u32 = 8;
+
 /// The claim of a robot that wants to lead.
 #[derive(Clone, Copy)]
 pub(super) struct Claim {
@@ -48,6 +51,7 @@ impl Total {
         }
         member.patience = patience;
         member.silence = 0;
+        member.asked = member.asked.saturating_add(1);
         member.leader = None;
         member.role = Role::Asking {
             trial,
@@ -166,8 +170,12 @@ impl Total {
             return self.leave(robot, reason);
         }
         if !is_granted && term == member.term {
-            // A leader of that term may be there, of which this robot believes to have heard more than it said.
-            member.round = 0;
+            // A leader of that term may be there, of which this robot believes to have heard more than it said. Only a
+            // corruption leaves it so. Robots that have just heard a leader that has crashed refuse too, but not for
+            // long, and late copies of what that leader said must not count.
+            if member.asked >= MANY_ASKS {
+                (member.asked, member.round) = (0, 0);
+            }
         }
         match is_granted {
             true => self.count_votes(robot),

@@ -42,9 +42,10 @@ impl Total {
         }
         let had_leader = member.leader == Some(from);
         // Late duplicates are not a sign of life of the leader.
-        if next.term > member.term || next.round > member.round {
+        let counter = Some((from, next.term));
+        if next.term > member.term || next.round > member.round || member.counted_by != counter {
             member.follow(from, next.term);
-            member.round = next.round;
+            (member.round, member.counted_by) = (next.round, counter);
         } else if !had_leader {
             return;
         }
@@ -215,7 +216,7 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
-    use super::super::packet::Generation;
+    use super::super::packet::{Generation, Question};
     use super::super::snapshots::Place;
     use super::*;
     use crate::alone::alone;
@@ -292,6 +293,42 @@ mod tests {
             assert_eq!(silence(&total), Some(5));
             total.append(robot, life(1), continuation(8, messages(3)));
             assert_eq!(silence(&total), Some(0));
+        });
+    }
+
+    #[test]
+    fn a_late_datagram_of_the_leader_is_no_sign_that_it_lives_after_a_refused_vote() {
+        alone(|robot| {
+            let mut total = member(robot);
+            total.append(robot, life(1), continuation(7, messages(2)));
+            total.ask(robot, true);
+            let question = Question {
+                asker: total.life(robot).name,
+                number: total.ask_number,
+            };
+            // Robot 2 has heard the leader a moment ago.
+            total.answered(robot, life(2), question, (1, false));
+            total.append(robot, life(1), continuation(6, messages(1)));
+            let leader = |total: &Total| total.member.as_ref().and_then(|member| member.leader);
+            assert_eq!(leader(&total), None);
+            total.append(robot, life(1), continuation(8, messages(3)));
+            assert_eq!(leader(&total), Some(life(1)));
+        });
+    }
+
+    #[test]
+    fn a_leader_of_the_term_that_a_corruption_left_is_heard_from_its_first_round() {
+        alone(|robot| {
+            let mut total = member(robot);
+            total.append(robot, life(1), continuation(500, messages(2)));
+            total.member.as_mut().expect("a group").term = 2;
+            let next = Continuation {
+                term: 2,
+                ..continuation(1, messages(2))
+            };
+            total.append(robot, life(2), next);
+            let leader = total.member.as_ref().and_then(|member| member.leader);
+            assert_eq!(leader, Some(life(2)));
         });
     }
 

@@ -30,6 +30,10 @@ pub(super) struct Member {
     /// The last of that leader's rounds and calls that it has heard.
     pub round: u64,
     pub call: u64,
+    /// The leader that counted this round, and its term. A corrupted term may be that of a later leader.
+    pub counted_by: Option<(Life, u32)>,
+    /// How often it has asked to lead since a leader was heard.
+    pub asked: u32,
     /// The log is known to be that leader's up to here.
     pub agreed: u64,
     /// Parts of that leader's log that arrived early.
@@ -78,6 +82,8 @@ impl Member {
             leader: None,
             round: 0,
             call: 0,
+            counted_by: None,
+            asked: 0,
             agreed: 0,
             early: Early::default(),
             silence: 0,
@@ -157,6 +163,7 @@ impl Member {
         }
         self.leader = Some(leader);
         self.silence = 0;
+        self.asked = 0;
         self.is_active = true;
     }
 }

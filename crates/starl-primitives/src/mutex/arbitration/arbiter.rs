@@ -317,10 +317,13 @@ impl Arbiter {
             } = &entry.wish;
             entry.number = self.numbers.next(robot, resources, *number);
         }
+        if !entry.is_granted {
+            // A grant is repeated for copies of requests too, and only later requests renew the lease.
+            entry.until = terms.until();
+        }
         entry.is_granted = true;
         entry.is_inquired = false;
         entry.told = None;
-        entry.until = terms.until();
         let Wish {
             id, attempt, round, ..
         } = entry.wish;
@@ -366,5 +369,48 @@ impl Arbiter {
                 !is_over
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use starl_core::{Duration, Time};
+
+    #[test]
+    fn a_copy_of_a_request_that_is_granted_does_not_renew_its_lease() {
+        let lease = Duration::from_seconds(2);
+        let at = |now: u64| Terms {
+            now: Time::ZERO + Duration::from_millis(now),
+            clock: 0,
+            lease: Some(lease),
+            patience: lease,
+            patience_waiting: lease,
+            unready: None,
+            tells: false,
+        };
+        let wish = |round| Wish {
+            id: RequestId {
+                incarnation: 7,
+                number: 1,
+            },
+            attempt: 0,
+            round,
+            clock: 1,
+            resources: Resources::from(["a".into()]),
+            number: 0,
+            is_entered: false,
+            list: 0,
+        };
+        let (mut arbiter, mut post) = (Arbiter::default(), Post::default());
+        arbiter.request(RobotId(1), wish(1), at(0), &mut post);
+        let until = |arbiter: &Arbiter| arbiter.entries.get(&RobotId(1)).map(|entry| entry.until);
+        assert_eq!(until(&arbiter), Some(Time::ZERO + lease));
+        arbiter.request(RobotId(1), wish(1), at(1500), &mut post);
+        assert_eq!(until(&arbiter), Some(Time::ZERO + lease));
+        arbiter.request(RobotId(1), wish(2), at(1600), &mut post);
+        let renewed = Time::ZERO + Duration::from_millis(3600);
+        assert_eq!(until(&arbiter), Some(renewed));
+        assert_eq!(post.0.len(), 3, "the grant is repeated each time");
     }
 }
