@@ -55,8 +55,9 @@ impl Broadcast {
                 self.sent(at, report.message(robot, *message), *order);
             }
             BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
-                self.health.delivered(*from, robot);
-                self.delivered(report.message(*from, *message), robot);
+                let key = report.message(*from, *message);
+                self.health.delivered(&key, robot);
+                self.delivered(key, robot);
             }
             BroadcastEvent::Transfer(TransferEvent::Fail { message, to }) => {
                 self.failed(at, report.message(robot, *message), to, found);
@@ -172,7 +173,7 @@ impl Broadcast {
         let sent = message.sent;
         let mut missed = Vec::new();
         for &robot in &message.owed {
-            match self.health.excuse_of(from, robot, sent) {
+            match self.health.excuse_of(key, robot, sent) {
                 Some(excuse) => self.excused.note(DELIVERY, excuse),
                 None => missed.push(robot),
             }

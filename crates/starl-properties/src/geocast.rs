@@ -102,8 +102,8 @@ impl Geocast {
                 self.outstanding.insert(key, at + self.bound, message);
             }
             GeocastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
-                self.health.delivered(*from, robot);
                 let key = report.message(*from, *message);
+                self.health.delivered(&key, robot);
                 self.takes(at, robot, &key, found);
                 self.delivered(at, robot, key, found);
             }
@@ -186,7 +186,7 @@ impl Geocast {
         missed.retain(|&robot| {
             let stale = !self.health.well_since(robot, sent - self.staleness);
             let stale = stale.then(|| self.health.excuse(robot));
-            let excuse = self.health.excuse_of(from, robot, sent).or(stale);
+            let excuse = self.health.excuse_of(key, robot, sent).or(stale);
             if let Some(excuse) = excuse {
                 self.excused.note(INCLUSION, excuse);
             }

@@ -7,6 +7,7 @@
 //! first message can be delivered.
 
 use crate::Excuse;
+use crate::report::MessageKey;
 use starl_core::event::{DropReason, Event, Fault};
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
@@ -70,8 +71,8 @@ pub(super) struct Health {
     cuts: BTreeMap<(RobotId, RobotId), Time>,
     /// Cuts older than this are forgotten.
     memory: Duration,
-    /// Senders and receivers: a message has been delivered since both started.
-    met: BTreeSet<(RobotId, RobotId)>,
+    /// Senders, their lives and receivers: a message of this life has been delivered since the receiver started.
+    met: BTreeSet<(RobotId, u32, RobotId)>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -156,25 +157,30 @@ impl Health {
         self.cuts.get(&(from, to)).is_none_or(|&at| at < since)
     }
 
-    /// The excuse for a message between two robots that did not arrive from `since` on; none if there is none.
-    pub fn excuse_of(&self, from: RobotId, to: RobotId, since: Time) -> Option<Excuse> {
+    /// The excuse for a message that was sent at `since` and did not reach a robot; none if there is none.
+    pub fn excuse_of(&self, message: &MessageKey, to: RobotId, since: Time) -> Option<Excuse> {
+        let &MessageKey {
+            from, incarnation, ..
+        } = message;
         let unwell = [from, to]
             .into_iter()
             .find(|robot| !self.well_since(*robot, since));
-        let is_heard = self.met.contains(&(from, to)) || self.linked_since(to, from, since);
+        let is_met = self.met.contains(&(from, incarnation, to));
+        let is_heard = is_met || self.linked_since(to, from, since);
         let is_linked = is_heard && self.linked_since(from, to, since);
         let parted = (!is_linked).then_some(Excuse::Partition);
         unwell.map(|robot| self.excuse(robot)).or(parted)
     }
 
-    /// A message from one robot was delivered to another.
-    pub fn delivered(&mut self, from: RobotId, to: RobotId) {
-        self.met.insert((from, to));
+    /// A message was delivered to a robot, perhaps of a life of its sender that is over.
+    pub fn delivered(&mut self, message: &MessageKey, to: RobotId) {
+        self.met.insert((message.from, message.incarnation, to));
     }
 
     fn change(&mut self, robot: RobotId, at: Time, change: Change<'_>) {
         if change.is_end() {
-            self.met.retain(|&(from, to)| from != robot && to != robot);
+            self.met
+                .retain(|&(from, _, to)| from != robot && to != robot);
         }
         let needs = self.needs;
         let Some(condition) = self.robots.get_mut(robot.index()) else {

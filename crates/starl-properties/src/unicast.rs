@@ -59,8 +59,8 @@ impl Unicast {
                 }
             }
             UnicastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
-                self.health.delivered(*from, robot);
                 let key = report.message(*from, *message);
+                self.health.delivered(&key, robot);
                 self.owed.remove(&(key, robot));
                 if let Some(what) = self.taken.take(robot, &key, Some(robot)) {
                     self.took(at, robot, &key, what, found);
@@ -127,7 +127,7 @@ impl Unicast {
             return;
         };
         let MessageKey { from, number, .. } = key;
-        if let Some(excuse) = self.health.excuse_of(from, to, sent) {
+        if let Some(excuse) = self.health.excuse_of(&key, to, sent) {
             return self.excused.note(DELIVERY, excuse);
         }
         let text = format!(

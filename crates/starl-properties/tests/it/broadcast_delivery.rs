@@ -205,6 +205,32 @@ fn a_partition_between_others_or_at_another_time_excuses_no_robot() {
 }
 
 #[test]
+fn a_late_message_of_an_earlier_life_makes_no_later_life_known() {
+    let of_second_life = [
+        ("number", 1u32.into()),
+        ("incarnation", 8u32.into()),
+        ("retry_span", 4.0.into()),
+    ];
+    for (crashes, excused) in [(true, true), (false, false)] {
+        let mut story = Story::of_ground_robots(2);
+        story.setting.properties.broadcast_bound = seconds(5);
+        story.broadcasts(700, 0, 9);
+        if crashes {
+            story.fault(750, Some(0), "crash");
+            story.fault(800, Some(0), "restart");
+        }
+        story.delivers(850, 1, "broadcast", (0, 9));
+        match crashes {
+            true => story.report(1000, 0, ("broadcast", "broadcast"), of_second_life.clone()),
+            false => story.broadcasts(1000, 0, 1),
+        };
+        // Robot 0 is heard and hears nothing, so that a robot that does not know its life cannot ask for it.
+        dropped(&mut story, 1500, (1, 0), DropReason::Partition);
+        assert_eq!(story.verdict(60_000).is_empty(), excused, "{crashes}");
+    }
+}
+
+#[test]
 fn loss_and_range_excuse_no_robot() {
     for reason in [DropReason::Loss, DropReason::Range, DropReason::Bandwidth] {
         let mut story = robot_2_hears_nothing();
