@@ -7,7 +7,7 @@ use crate::console::{self, counted, grouped};
 use crate::failure::Failure;
 use crate::replay::{as_far_as_it_goes, inputs, missing_end, open, other_version, unreadable};
 use starl_catalog::programs::Registry;
-use starl_core::{Effect, Program, RobotId};
+use starl_core::{Effect, Event, Intervention, Program, RobotId};
 use starl_host::{Departure, Difference, Replayer, journal};
 use starl_trace::{Header, Inputs, Item, TraceError};
 use std::path::Path;
@@ -20,8 +20,8 @@ pub fn replay(
 ) -> Result<bool, Failure> {
     let path = arguments.trace.as_path();
     let header = open(path)?.header().clone();
-    let robot = robot(path, &header, name)?;
-    let mut replayer = Replayer::new(program(arguments, &header, robot, registry)?);
+    let Replayed { robot, like } = robot(path, &header, name)?;
+    let mut replayer = Replayer::new(program(arguments, &header, like, registry)?);
     let Outcome { departure, cut } = feed(path, robot, &header, &mut replayer)?;
     let agreed = format!(
         "{}, {}",
@@ -58,14 +58,30 @@ pub fn replay(
     Ok(same)
 }
 
-/// The robot called so.
-fn robot(path: &Path, header: &Header, name: &str) -> Result<RobotId, Failure> {
+/// The robot to replay.
+struct Replayed {
+    robot: RobotId,
+    /// The robot of the scenario with the same program and parameters: itself, unless it joined during the run.
+    like: RobotId,
+}
+
+/// The robot called so, which may have joined during the run.
+fn robot(path: &Path, header: &Header, name: &str) -> Result<Replayed, Failure> {
     if let Some(found) = header.robots.iter().find(|robot| robot.name == name) {
-        return Ok(found.id);
+        let robot = found.id;
+        return Ok(Replayed { robot, like: robot });
     }
     /// A list of more names would not help.
     const MOST: usize = 20;
-    let names: Vec<&str> = header.robots.iter().map(|robot| &*robot.name).collect();
+    let joined = joined(path, header)?;
+    let mut names: Vec<&str> = header.robots.iter().map(|robot| &*robot.name).collect();
+    for (number, (joined_name, like)) in joined.iter().enumerate() {
+        if joined_name == name {
+            let robot = RobotId((header.robots.len() + number) as u32);
+            return Ok(Replayed { robot, like: *like });
+        }
+        names.push(joined_name);
+    }
     let more = match names.len() > MOST {
         true => format!(" and {} more", grouped((names.len() - MOST) as u64)),
         false => String::new(),
@@ -75,6 +91,46 @@ fn robot(path: &Path, header: &Header, name: &str) -> Result<RobotId, Failure> {
         "--robot {name}: no robot in {} is called this; the robots are {names}{more}",
         path.display()
     )))
+}
+
+/// The names of the robots that joined during the run, in the order of their numbers, each with the robot of the
+/// scenario whose program it runs.
+fn joined(path: &Path, header: &Header) -> Result<Vec<(String, RobotId)>, Failure> {
+    let (mut joining, mut joined) = (Vec::new(), Vec::<(String, RobotId)>::new());
+    let mut reader = open(path)?;
+    while let Some(item) = reader.next_item() {
+        let record = match item {
+            Ok(Item::Record(record)) => record,
+            Ok(Item::Inputs(_)) => continue,
+            Err(error) if error.is_missing_end() => break,
+            Err(error) => return Err(unreadable(path, &error)),
+        };
+        match (record.event, record.robot) {
+            (Event::Intervention(what), None) => {
+                let Intervention::Join { name, pose, like } = *what else {
+                    continue;
+                };
+                joining.push((name, pose, like));
+            }
+            // An intervention that is impossible at its time is not followed by a robot.
+            (Event::Moved(pose), Some(robot))
+                if robot.index() == header.robots.len() + joined.len() =>
+            {
+                let mut places = joining.iter();
+                if let Some(found) =
+                    places.position(|(_, place, _)| place.position == pose.position)
+                {
+                    let (name, _, like) = joining.swap_remove(found);
+                    let earlier = like.index().checked_sub(header.robots.len());
+                    let earlier = earlier.and_then(|number| joined.get(number));
+                    let like = earlier.map_or(like, |(_, like)| *like);
+                    joined.push((name, like));
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(joined)
 }
 
 /// The recorded program of the robot, or the new one.

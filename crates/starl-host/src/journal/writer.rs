@@ -41,6 +41,11 @@ impl Journal {
         }
     }
 
+    /// Adds the robot with the next number, which has joined the fleet.
+    pub fn join(&mut self) {
+        self.writers.push(Writer::default());
+    }
+
     /// Records a call of a robot's software at `at`, by the host's clock.
     ///
     /// # Panics

@@ -89,9 +89,20 @@ impl Checker {
             if let Some(written) = parameter.ty().filter(|_| !is_known) {
                 let message = format!("an order carries no {}", self.name_of(&ty));
                 let problem = Diagnostic::new(Code::InputField, written.span(), message);
-                self.report(problem.note(
+                let problem = problem.note(
                     "it carries Bool, Int, Float, String, Point, RobotId, List[Point] and List[RobotId]",
-                ));
+                );
+                let is_record = match &ty {
+                    Type::Record(_) => true,
+                    Type::List(element) => matches!(**element, Type::Record(_)),
+                    _ => false,
+                };
+                self.report(if is_record {
+                    problem
+                        .note("give each part a field of its own, such as `at: Point, count: Int`")
+                } else {
+                    problem
+                });
             }
             let ty = if is_known { ty } else { Type::Error };
             fields.push((name, ty, span));

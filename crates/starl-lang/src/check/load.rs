@@ -110,7 +110,12 @@ impl Loader<'_> {
         let Some(source) = self.libraries.source(name) else {
             let message = format!("there is no library `{name}`");
             let problem = Diagnostic::new(Code::UnknownLibrary, span, message);
-            let note = format!("the file `{name}.starl` must be beside this file");
+            let note = match name {
+                "math" | "random" | "time" | "numpy" | "sys" | "os" | "typing" => {
+                    "functions such as `sqrt`, `sin`, `random` and `now` need no import: remove the line".into()
+                }
+                _ => format!("the file `{name}.starl` must be beside this file"),
+            };
             self.report(file, problem.note(note));
             return None;
         };

@@ -12,7 +12,7 @@ use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
 use super::surroundings::Surroundings;
-use super::tables::{Member, Method, PRIMITIVES, Primitive, Signature};
+use super::tables::{Builtin, Member, Method, PRIMITIVES, Primitive, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
 use crate::syntax::ast::{self, AstNode};
@@ -403,6 +403,14 @@ impl Checker {
         let problem = match foreign {
             Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), at, *meant),
             None => did_you_mean(problem, at, name, names.iter().copied()),
+        };
+        let function = Builtin::named(name).filter(|builtin| {
+            let signature = builtin.signature();
+            signature.is_call && !signature.parameters.is_empty()
+        });
+        let problem = match function {
+            Some(builtin) => problem.note(format!("it is a function: `{}`", builtin.text())),
+            None => problem,
         };
         self.report(if names.is_empty() {
             problem

@@ -28,6 +28,7 @@ mod event;
 mod expression;
 pub(crate) mod feasible;
 mod fit;
+mod hints;
 mod input;
 mod libraries;
 mod load;

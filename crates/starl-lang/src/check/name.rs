@@ -242,7 +242,14 @@ impl Checker {
         } else {
             let message = format!("{what} cannot call `{name}`, which does something");
             let problem = Diagnostic::new(Code::Impure, span, message);
-            self.report(problem.note("only `init`, effects and handlers do something"));
+            let problem = problem.note("only `init`, effects and handlers do something");
+            self.report(match (place, name) {
+                (Where::Guard, "choose") => {
+                    problem.note("call it in the `eff`: `if some x = choose(xs)`, and a block")
+                }
+                (Where::Guard, _) => problem.note("call it in the `eff`"),
+                _ => problem,
+            });
         }
         false
     }
@@ -305,6 +312,9 @@ impl Checker {
 
     /// Suggests the name that was probably meant, among all visible names.
     pub fn suggest(&self, problem: Diagnostic, name: &str, span: Span) -> Diagnostic {
+        if let Some(problem) = self.without_self(&problem, name, span) {
+            return problem;
+        }
         if let Some((_, meant)) = FOREIGN.iter().find(|(word, _)| *word == name) {
             return problem.replace(format!("did you mean `{meant}`?"), span, *meant);
         }
@@ -313,10 +323,21 @@ impl Checker {
         let variants = self.variants.keys();
         let builtins = BUILTINS.iter().map(|builtin| builtin.name());
         let candidates = locals
-            .chain(declared.map(String::as_str))
+            .chain(declared.clone().map(String::as_str))
             .chain(builtins)
             .chain(variants.map(String::as_str));
-        did_you_mean(problem, span, name, candidates)
+        if super::hints::is_habit(name) {
+            return self.hint(problem, name, span);
+        }
+        let problem = if self.is_of_primitive(span) {
+            did_you_mean(problem, span, name, declared.map(String::as_str))
+        } else {
+            did_you_mean(problem, span, name, candidates)
+        };
+        match problem.fix {
+            Some(_) => problem,
+            None => self.hint(problem, name, span),
+        }
     }
 }
 
@@ -343,6 +364,15 @@ const FOREIGN: &[(&str, &str)] = &[
     ("False", "false"),
     ("print", "log"),
     ("println", "log"),
+    ("printf", "log"),
+    ("str", "String"),
+    ("numAgents", "peers.size()"),
+    ("raise", "fail"),
+    ("throw", "fail"),
+    ("panic", "fail"),
+    ("randint", "random_int"),
+    ("uniform", "random"),
+    ("choice", "choose"),
 ];
 
 /// Readings of a robot's sensors.

@@ -102,6 +102,15 @@ impl Checker {
         } else if !self.may_be_unread(name) {
             let message = format!("there is no variable `{name}`");
             let problem = Diagnostic::new(Code::UnknownName, span, message);
+            if let Some(problem) = self.without_self(&problem, name, span) {
+                self.report(problem);
+                return no_place(span);
+            }
+            if super::hints::is_habit(name) {
+                let problem = self.hint(problem, name, span);
+                self.report(problem);
+                return no_place(span);
+            }
             let variables = self.files[self.file as usize].scope.iter();
             let variables = variables
                 .filter(|(_, declared)| {

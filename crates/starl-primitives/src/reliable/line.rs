@@ -226,7 +226,13 @@ impl Line {
             let receivers = &outgoing.receivers;
             receivers.read(*peer, |receiver| receiver.taken.contains(number))
         };
-        let is_meant = |peer: &RobotId| !self.is_local || has_taken(peer).is_some();
+        let is_for = |peer| {
+            outgoing
+                .first()
+                .is_some_and(|(_, first)| first.is_for(peer))
+        };
+        let is_meant =
+            |peer: &RobotId| is_for(*peer) && (!self.is_local || has_taken(peer).is_some());
         let unreached: Vec<RobotId> = match self.to {
             Some(to) => alloc::vec![to],
             None => robot

@@ -30,6 +30,15 @@ pub(super) struct Message {
     pub sent: Time,
     /// How many receivers have not taken it.
     waiting: u32,
+    /// The last robot that it is for: robots with greater numbers joined after it was sent.
+    last: RobotId,
+}
+
+impl Message {
+    /// Whether the robot belonged to the fleet when the message was sent.
+    pub fn is_for(&self, robot: RobotId) -> bool {
+        robot <= self.last
+    }
 }
 
 /// The state of one receiver.
@@ -149,13 +158,14 @@ impl Outgoing {
         self.get(number).is_some_and(|message| message.waiting > 0)
     }
 
-    /// Adds a message for this number of receivers; returns its number.
-    pub fn push(&mut self, content: Payload, sent: Time, waiting: u32) -> u32 {
+    /// Adds a message for this number of receivers, of which `last` has the greatest number; returns its number.
+    pub fn push(&mut self, content: Payload, sent: Time, waiting: u32, last: RobotId) -> u32 {
         let number = self.next();
         self.messages.push_back(Message {
             content: content.into_boxed_slice(),
             sent,
             waiting,
+            last,
         });
         self.drop_settled();
         number
@@ -233,7 +243,9 @@ impl Outgoing {
             receiver.taken.insert(number);
             receiver.resent.remove(&number);
             let place = (number - self.base) as usize;
-            if let Some(message) = self.messages.get_mut(place) {
+            if let Some(message) = self.messages.get_mut(place)
+                && message.is_for(from)
+            {
                 message.waiting = message.waiting.saturating_sub(1);
                 if message.waiting == 0 {
                     credit.settled.push(number);
@@ -260,5 +272,27 @@ impl Outgoing {
                 receiver.resent.clear();
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_robot_that_joins_takes_no_message_in_place_of_another() {
+        let mut outgoing = Outgoing::default();
+        let early = outgoing.push(Payload::default(), Time::ZERO, 2, RobotId(2));
+        outgoing.credit(RobotId(1), early + 1, &[], true);
+        // Robot 3 joined after the message was sent, and receives it before robot 2 does.
+        let credit = outgoing.credit(RobotId(3), early + 1, &[], true);
+        assert!(credit.settled.is_empty());
+        assert!(outgoing.is_outstanding(early));
+        let later = outgoing.push(Payload::default(), Time::ZERO, 3, RobotId(3));
+        outgoing.credit(RobotId(1), later + 1, &[], true);
+        outgoing.credit(RobotId(3), later + 1, &[], true);
+        let credit = outgoing.credit(RobotId(2), later + 1, &[], true);
+        assert_eq!(credit.settled, [early, later]);
+        assert_eq!(outgoing.len(), 0);
     }
 }

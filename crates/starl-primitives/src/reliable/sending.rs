@@ -25,12 +25,14 @@ impl Reliable {
         let now = robot.now();
         let mut notices = Notices::new();
         let receivers = line.receivers(robot);
+        let last = to.or_else(|| robot.fleet().last().copied());
+        let last = last.unwrap_or_else(|| robot.id());
         let most = self.options.most_outstanding.max(1) as usize;
         let outgoing = self.outgoing_mut(to);
         while outgoing.len() >= most {
             line.give_up(robot, outgoing, &mut notices);
         }
-        let number = outgoing.push(content, now, receivers as u32);
+        let number = outgoing.push(content, now, receivers as u32, last);
         let message = line.name(number);
         if receivers == 0 {
             notices.push(Notice::Acknowledged(message));

@@ -10,6 +10,7 @@ use starl_core::intervention::NetworkKnob;
 use starl_core::{
     Agent, Event, FaultKind, Intervention, Order, Point, Pose, Record, RobotId, Time, WayPoint,
 };
+use starl_host::journal::Journal;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -392,10 +393,18 @@ impl Simulation {
         scenario.fleet.groups.push(group);
         self.shared.kinds.push(kind);
         let group = self.shared.kinds.len() - 1;
-        let recording = self.shards.first().is_some_and(|shard| shard.log.recording);
+        let first = self.shards.first();
+        let recording = first.is_some_and(|shard| shard.log.recording);
+        let has_journal = first.is_some_and(|shard| shard.journal.is_some());
         populate::add(&mut self.shared, &mut self.shards, group, pose, at);
         self.set_recording(recording);
         let robot = RobotId(self.shared.bodies.len() as u32 - 1);
+        let shard = &mut self.shards[robot.index() / SIZE];
+        match &mut shard.journal {
+            Some(journal) => journal.join(),
+            // The robot is the first of a new shard.
+            journal => *journal = has_journal.then(|| Box::new(Journal::new(robot, 1))),
+        }
         let fleet = self.shared.fleet.iter().copied();
         self.shared.fleet = fleet.chain([robot]).collect();
         if !self.shared.parts.is_empty() {

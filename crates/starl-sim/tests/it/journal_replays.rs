@@ -5,8 +5,8 @@ use crate::engine_support::{exact_delay, obstacle, scenario, simulate};
 use crate::journal_support::{Replay, recorded, replay};
 use starl_core::motion::{PlanRequest, Planner};
 use starl_core::{
-    Command, Destination, Duration, Input, Message, Obstacle, Point, Port, Primitive, Primitives,
-    Program, Random, Robot, RobotId, Time, WayPoint,
+    Command, Destination, Duration, Input, Intervention, Message, Obstacle, Point, Port, Pose,
+    Primitive, Primitives, Program, Random, Robot, RobotId, Time, WayPoint,
 };
 use starl_sim::Scenario;
 use starl_sim::scenario::{Clock, Detector, Fault, FaultKind, Proximity, Thing};
@@ -244,4 +244,29 @@ fn entries_are_in_the_order_of_their_times() {
         }
     }
     assert!(entries > 20, "{entries}");
+}
+
+/// Robots that join have journals too, also the first of a shard.
+#[test]
+fn robots_that_join_are_replayed() {
+    let places: Vec<(f64, f64)> = (0..255)
+        .map(|i| (f64::from(i % 30), f64::from(i / 30)))
+        .collect();
+    let mut simulation = simulate(scenario("differential", &places), Busy::default());
+    simulation.set_journal(true);
+    for (x, milliseconds) in [(-5.0, 100), (-6.0, 300)] {
+        let join = Intervention::Join {
+            like: RobotId(0),
+            name: format!("late at {x}"),
+            pose: Pose::level(Point::planar(x, 0.0), 0.0),
+        };
+        let at = Time::ZERO + Duration::from_millis(milliseconds);
+        simulation.apply(at, join).expect("there is room");
+    }
+    let recording = recorded(&mut simulation, 1.0);
+    for robot in [0, 254, 255, 256] {
+        let replay = replay(&recording, RobotId(robot), Box::new(Busy::default()));
+        assert_eq!(replay.lives, 1, "robot {robot}");
+        assert!(replay.entries > 5, "robot {robot}: {replay:?}");
+    }
 }

@@ -197,8 +197,8 @@ fn clause(parser: &mut Parser<'_>) {
         parser.bump();
         slips::header_colon(parser, HeaderColon::Remove);
         expression::condition(parser);
-        if parser.eat(ForKeyword) {
-            expression::expression(parser);
+        if parser.at(ForKeyword) {
+            hold(parser);
         }
     } else {
         parser.start(EffClause);
@@ -206,6 +206,40 @@ fn clause(parser: &mut Parser<'_>) {
         block::after_word(parser, "`eff`", true);
     }
     parser.finish();
+}
+
+/// `for` and a time, which end the guard.
+fn hold(parser: &mut Parser<'_>) {
+    let start = parser.end_of_last();
+    parser.bump();
+    expression::binary(parser, expression::power::COMPARISON);
+    if !matches!(parser.current(), AndKeyword | OrKeyword) {
+        return;
+    }
+    let time = Span::new(start, parser.end_of_last());
+    let joined = parser.span();
+    let is_and = parser.at(AndKeyword);
+    parser.start(Error);
+    while !parser.at_line_end() {
+        parser.bump();
+    }
+    parser.finish();
+    let rest = Span::new(joined.start, parser.end_of_last());
+    let problem = Diagnostic::new(Code::Unexpected, time, "`for` and its time end the guard");
+    let whole = Span::new(parser.start_of_line(start), rest.end).of(parser.text);
+    let form = "put them after the whole condition";
+    parser.report(if is_and && !whole.contains(" or ") {
+        let edits = [
+            Edit::new(time, ""),
+            Edit::new(Span::empty(rest.end), time.of(parser.text)),
+        ];
+        problem.fix(Fix {
+            message: form.into(),
+            edits: edits.into(),
+        })
+    } else {
+        problem.note(form)
+    });
 }
 
 /// Whether `every` and a time are next, rather than a statement that begins with a name.

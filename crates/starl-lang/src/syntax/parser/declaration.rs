@@ -150,6 +150,25 @@ fn type_of(literal: SyntaxKind) -> Option<&'static str> {
 /// `function name(a: T) -> V`, with a block or `= value`.
 pub(super) fn function(parser: &mut Parser<'_>) {
     parser.bump();
+    function_from_name(parser);
+}
+
+/// Whether a name, brackets and `->` are next.
+pub(super) fn is_function_without_word(parser: &Parser<'_>) -> bool {
+    let end = (1..).find(|ahead| matches!(parser.nth(*ahead), RightParen | Newline | EndOfFile));
+    end.is_some_and(|end| parser.nth(end) == RightParen && parser.nth(end + 1) == Arrow)
+}
+
+/// `name(a: T) -> V`, which begins with `function`.
+pub(super) fn function_without_word(parser: &mut Parser<'_>) {
+    let named = parser.span();
+    let message = "the declaration of a function begins with `function`";
+    let problem = Diagnostic::new(Code::ForeignDeclaration, named, message);
+    parser.report(problem.replace("write `function`", Span::empty(named.start), "function "));
+    function_from_name(parser);
+}
+
+fn function_from_name(parser: &mut Parser<'_>) {
     name(parser);
     parameters(parser);
     if parser.at(Colon) && parser.nth(1) == Identifier {

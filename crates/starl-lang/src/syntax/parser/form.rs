@@ -2,7 +2,7 @@
 
 use super::declaration::{self as declare, contextual};
 use super::{Parser, SyntaxKind, SyntaxKind::*};
-use super::{action, handler, property, record, shared, slips, stable};
+use super::{action, handler, koord, property, record, shared, slips, stable};
 
 /// The kind of declaration, and the function that parses it from its first word.
 pub(super) type Form = (SyntaxKind, fn(&mut Parser<'_>));
@@ -27,6 +27,11 @@ pub(super) fn form(parser: &Parser<'_>) -> Option<Form> {
         return Some(form);
     }
     match next {
+        Colon if koord::is_variable(parser) => Some((VariableDeclaration, koord::variable)),
+        Identifier if word == "using" => Some((BindingDeclaration, koord::using)),
+        LeftParen if declare::is_function_without_word(parser) => {
+            Some((FunctionDeclaration, declare::function_without_word))
+        }
         Colon if parser.nth(2) == Newline && parser.nth(3) == Indent => {
             Some((ActionDeclaration, action::action))
         }

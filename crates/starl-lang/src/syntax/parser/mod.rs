@@ -13,6 +13,7 @@ mod expression;
 mod form;
 mod handler;
 mod item;
+mod koord;
 mod operand;
 mod property;
 mod record;

@@ -144,6 +144,12 @@ impl Parser<'_> {
             return;
         }
         let place = Span::empty(self.end_of_last());
+        if super::slips::is_formatted_text(self) {
+            let message = "texts do not contain values in braces";
+            let problem = Diagnostic::new(Code::Unexpected, self.span(), message);
+            let note = "write `log(\"x is {}\", x)`, or `\"x is \" + String(x)`";
+            return self.report(problem.note(note));
+        }
         let problem = Diagnostic::new(Code::Unexpected, place, "there is no comma between these");
         self.report(problem.label(self.span(), "this is the next").replace(
             "put a comma",

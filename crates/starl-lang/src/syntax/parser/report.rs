@@ -31,11 +31,10 @@ impl Parser<'_> {
             (self.span(), alloc::format!("{found} cannot stand here"))
         };
         let code = Code::Unexpected;
-        self.report(
-            Diagnostic::new(code, span, message)
-                .expected(expected)
-                .found(found),
-        );
+        let problem = Diagnostic::new(code, span, message)
+            .expected(expected)
+            .found(found);
+        self.report(super::slips::with_habit(self, expected, problem));
     }
 
     /// Whether an invalid character, which is reported, directly precedes the next token.

@@ -56,7 +56,7 @@ pub(super) fn foreign_declaration(word: &str) -> Option<&'static str> {
         "def" | "fn" | "func" | "fun" => "function",
         "agent" | "automaton" => "program",
         "module" => "library",
-        "use" | "using" | "include" | "from" => "import",
+        "use" | "include" | "from" => "import",
         "struct" | "class" | "type" => "record",
         "sharedsw" => "allread",
         "sharedmw" | "shared" => "allwrite",
@@ -163,6 +163,9 @@ pub(super) fn foreign_statement(parser: &Parser<'_>) -> Option<&'static str> {
             "a `for` always iterates over its whole collection: use an `if` in it, or `return`"
         }
         "pass" | "skip" if alone => "leave the block out",
+        "assert" if heads && !calls(parser) => {
+            "declare a property, `always name: condition`, which is judged on every run"
+        }
         "try" | "except" | "catch" if alone || next == SyntaxKind::Colon => {
             "a run-time error stops the robot's program: test before, for example with `if some`"
         }
@@ -177,6 +180,63 @@ fn calls(parser: &Parser<'_>) -> bool {
             .find(|ahead| matches!(parser.nth(*ahead), Newline | Semicolon | EndOfFile | Dedent));
         end.is_some_and(|end| parser.nth(end - 1) == RightParen && parser.nth(end + 1) != Indent)
     }
+}
+
+/// Adds what helps if what cannot stand here is the syntax of another language.
+pub(super) fn with_habit(parser: &Parser<'_>, expected: &str, problem: Diagnostic) -> Diagnostic {
+    let (current, before) = (parser.current(), before(parser));
+    let (kind_before, word_before) = before;
+    if parser.at_word("is") {
+        let is_negated = parser.nth(1) == NotKeyword;
+        let operator = if is_negated { "!=" } else { "==" };
+        let span = match is_negated {
+            true => parser.span().to(parser.nth_span(1)),
+            false => parser.span(),
+        };
+        return problem.replace(format!("write `{operator}`"), span, operator);
+    }
+    let note = match (current, expected) {
+        (Question, _) => "a choice of two values is written `if condition then a else b`",
+        (Star, _) if kind_before == Some(Star) => "a power is written `pow(x, 2.0)` or `x * x`",
+        (Equal, _) if kind_before == Some(DotDot) => "`a..b` ends before `b`: write `a..b + 1`",
+        (LeftBracket, "a type") => "a list of Ints is written `List[Int]`",
+        (RightBracket, "a type") => "a list of Points is written `List[Point]`",
+        (Arrow, _) => "a function begins with `function`; an action has no result",
+        (Comma, expected) if expected == Newline.name() => "write an assignment for each variable",
+        (Identifier, _) if word_before == "lambda" => {
+            "functions are not values: declare one with `function`"
+        }
+        (Equal, _) if opens_loop(parser) => "`for i in 0..n` counts from 0 to below `n`",
+        _ => return problem,
+    };
+    problem.note(note)
+}
+
+/// Whether `for (i` precedes the next lexeme.
+fn opens_loop(parser: &Parser<'_>) -> bool {
+    let kinds = [3, 2, 1].map(|back| {
+        let at = parser.position.checked_sub(back)?;
+        parser.lexemes.get(at).map(|lexeme| lexeme.kind)
+    });
+    kinds == [ForKeyword, LeftParen, Identifier].map(Some)
+}
+
+/// The lexeme before the next one, and its text.
+fn before<'a>(parser: &Parser<'a>) -> (Option<SyntaxKind>, &'a str) {
+    let Some(lexeme) = (parser.position.checked_sub(1)).and_then(|at| parser.lexemes.get(at))
+    else {
+        return (None, "");
+    };
+    let span = parser.tokens.span(lexeme.index as usize);
+    (Some(lexeme.kind), span.of(parser.text))
+}
+
+/// Whether the text that is next has the letter `f` of Python directly before it.
+pub(super) fn is_formatted_text(parser: &Parser<'_>) -> bool {
+    let start = parser.span().start;
+    parser.at(StringLiteral)
+        && matches!(before(parser), (Some(Identifier), "f" | "r" | "b" | "F"))
+        && parser.end_of_last() == start
 }
 
 /// Reports an operator of another language, and how it is written here.
