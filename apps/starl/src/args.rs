@@ -635,10 +635,10 @@ pub struct ExploreArguments {
     #[arg(long, value_name = "N")]
     pub warm_up: Option<u16>,
     /// With --tick: how long clocks tick, after the warm-up
-    #[arg(long, value_name = "TIME", default_value = "10s")]
+    #[arg(long, value_name = "TIME", requires = "tick", default_value = "10s")]
     pub time: String,
     /// With --tick: by how many ticks a clock may be ahead of another
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", requires = "tick", default_value_t = 0)]
     pub skew: u16,
     /// With --tick: a datagram in transit for more ticks than this is lost
     /// [default: datagrams may take any time]

@@ -156,8 +156,12 @@ fn refuse(error: &clap::Error) -> ExitCode {
         && word.parse::<f64>().is_ok()
     {
         // A field and its value as two words: the parser would say that `-- -1` passes a value.
+        let form = match option_before(word) {
+            Some((option, value)) => format!("{option}={value}"),
+            None => format!("--set parameters.count={word}"),
+        };
         let message = format!(
-            "{word} does not belong to an option; join a value to its option, as in --set parameters.count={word}"
+            "{word} does not belong to an option; join a value to its option, as in {form}"
         );
         console::error(&message);
         return ExitCode::from(2);
@@ -165,6 +169,14 @@ fn refuse(error: &clap::Error) -> ExitCode {
     // Without a reader there is no output.
     let _ = error.print();
     ExitCode::from(error.exit_code() as u8)
+}
+
+/// The option before the argument that begins with `word`, which is negative, and that argument.
+fn option_before(word: &str) -> Option<(String, String)> {
+    let next = std::env::args().skip(1);
+    std::env::args()
+        .zip(next)
+        .find(|(option, value)| option.starts_with("--") && value.starts_with(word))
 }
 
 /// The status, or one message on what went wrong.

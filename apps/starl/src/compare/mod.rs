@@ -25,7 +25,10 @@ pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool
     let seeds: Seeds = arguments.runs.seeds.parse()?;
     let b = arguments.b.as_ref().unwrap_or(&arguments.a);
     let sides = [(&arguments.a, &arguments.set_a), (b, &arguments.set_b)];
+    let options = ["--set-a", "--set-b"];
     let [a, b] = sides.map(|(target, set)| plan(target, set, arguments, seeds, registry));
+    let [a, b] = [(a, sides[0].1, options[0]), (b, sides[1].1, options[1])]
+        .map(|(plan, set, option)| plan.map_err(|failure| named_after(failure, set, option)));
     let plans = [a?, b?];
     let stop = stop_on_interrupt();
     let progress = Count::new(
@@ -68,6 +71,17 @@ pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool
         false => console::print(&report.text(metrics.as_deref(), arguments.runs.quiet))?,
     }
     Ok(report.is_success())
+}
+
+/// The failure, with the option that set the field in place of `--set`.
+fn named_after(failure: Failure, set: &[String], option: &str) -> Failure {
+    let named = |change: &String| {
+        let field = change.split('=').next().unwrap_or_default();
+        let rest = failure.0.strip_prefix("--set ")?;
+        let is_named = rest.strip_prefix(field)?.starts_with([':', '.']);
+        is_named.then(|| Failure(format!("{option} {rest}")))
+    };
+    set.iter().find_map(named).unwrap_or(failure)
 }
 
 fn plan(

@@ -52,7 +52,7 @@ pub fn test(arguments: &TestArguments, registry: &Registry) -> Result<bool, Fail
         campaign: Campaign::new(subjects, settings),
     };
     std::fs::create_dir_all(&arguments.out)
-        .map_err(|error| Failure::file(&arguments.out, error))?;
+        .map_err(|error| cannot_create(&arguments.out, &error))?;
     let mut workers = Workers::of(&arguments.cluster, arguments.threads, &stop)?;
     let shown = !arguments.quiet && !arguments.json;
     let progress = Count::new(shown, search.campaign.runs());
@@ -106,4 +106,12 @@ fn profiles(names: &[String]) -> Result<Vec<Profile>, Failure> {
     wanted.sort_unstable();
     wanted.dedup();
     Ok(wanted)
+}
+
+fn cannot_create(folder: &std::path::Path, error: &std::io::Error) -> Failure {
+    let reason = starl_catalog::disk::reason(error);
+    Failure::file(
+        folder,
+        format!("the folder cannot be created: {reason}; choose another path"),
+    )
 }

@@ -416,3 +416,33 @@ fn a_robot_whose_name_would_leave_its_folder_is_refused() {
         refused(&folder, &["run", "name.toml"], &["name.toml:4", message]);
     }
 }
+
+/// Each message names the option that was given.
+#[test]
+fn options_are_named_as_given() {
+    let folder = folder("options_as_given");
+    let cases: [(&[&str], &str); 7] = [
+        (&["run", "race", "--threads", "-3"], "--threads=-3"),
+        (
+            &["diagram", "race", "--out", "d.svg", "--last", "-3s"],
+            "--last=-3s",
+        ),
+        (
+            &["run", "race", "--set", "parameters.count", "-1"],
+            "--set parameters.count=-1",
+        ),
+        (
+            &["compare", "race", "--set-b", "network.loss=x"],
+            "--set-b network.loss: ",
+        ),
+        (&["explore", "mutex", "--time", "5s"], "--tick"),
+        (&["explore", "mutex", "--skew", "2"], "--tick"),
+        (
+            &["test", "race", "--seeds", "1", "--out", "/proc/none"],
+            "the folder cannot be created: there is no such file or folder; choose another path",
+        ),
+    ];
+    for (arguments, expected) in cases {
+        refused(&folder, arguments, &[expected]);
+    }
+}

@@ -197,3 +197,44 @@ fn a_changed_program_with_errors_is_refused() {
     assert_eq!(status(&output), 2, "{}", stdout(&output));
     assert!(stderr(&output).contains("needed"), "{}", stderr(&output));
 }
+
+/// A robot that joins is recorded too, and replayed under its name.
+#[test]
+fn a_robot_that_joins_replays_identically() {
+    const JOIN: &str = r#"
+[[event]]
+at = "2s"
+kind = "join"
+like = "iRobot0"
+name = "late"
+position = [-1, 1]
+
+[[event]]
+at = "4s"
+kind = "join"
+like = "late"
+name = "later"
+position = [-1, 2]
+"#;
+    let folder = folder("robot_that_joins");
+    file(&folder, "join.toml", JOIN);
+    let run = "run race --faults join.toml --quiet --inputs --trace a.mcap --duration 10s";
+    let arguments: Vec<&str> = run.split(' ').collect();
+    let output = starl(&folder, &arguments);
+    assert!(!stderr(&output).contains("panicked"), "{}", stderr(&output));
+    for robot in ["iRobot0", "late", "later"] {
+        let output = replay(&folder, &[robot]);
+        let text = stdout(&output);
+        assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
+        assert!(
+            text.contains(&format!("robot {robot}: identical")),
+            "{text}"
+        );
+    }
+    let output = replay(&folder, &["latest"]);
+    assert!(
+        stderr(&output).contains("late, later"),
+        "{}",
+        stderr(&output)
+    );
+}

@@ -3,6 +3,7 @@
 use alloc::format;
 use alloc::string::{String, ToString};
 
+use super::body::Where;
 use super::state::Checker;
 use super::tables::{PRIMITIVES, Primitive};
 use crate::diagnostic::{Diagnostic, Span};
@@ -10,6 +11,12 @@ use crate::diagnostic::{Diagnostic, Span};
 impl Checker {
     /// Adds a note about the name, which nothing has, or the fix; nothing if there is no hint.
     pub(super) fn hint(&self, problem: Diagnostic, name: &str, span: Span) -> Diagnostic {
+        if self.is_beyond_leads_to(name, span) {
+            return problem.note(format!(
+                "the quantifier of `{name}` does not extend over `leads_to`; without one, the property is judged for each \
+                 robot, with its own variables"
+            ));
+        }
         if let Some((_, note)) = HABITS.iter().find(|(word, _)| *word == name) {
             return problem.note(*note);
         }
@@ -28,6 +35,23 @@ impl Checker {
             name => name,
         };
         self.method_without_primitive(problem, method, span)
+    }
+
+    /// Whether the name stands after a `leads_to`, before which a quantifier of the same property names it.
+    fn is_beyond_leads_to(&self, name: &str, span: Span) -> bool {
+        if self.body.place != Where::Property {
+            return false;
+        }
+        let source = &self.files[self.file as usize].checked.source;
+        let before = source.get(..span.start as usize).unwrap_or_default();
+        let Some((before, _)) = before.rsplit_once("leads_to") else {
+            return false;
+        };
+        let start = before.rfind("always").or_else(|| before.rfind("invariant"));
+        let property = &before[start.unwrap_or_default()..];
+        let is_separator = |c: char| !c.is_ascii_alphanumeric() && c != '_';
+        let mut words = property.split(is_separator).filter(|word| !word.is_empty());
+        words.any(|word| word == "forall" || word == "exists") && words.any(|word| word == name)
     }
 
     /// Adds the fix for `self.x`, which is written `x`.
