@@ -168,14 +168,11 @@ fn halts_within(model: &dyn Model, halt: impl Fn(&mut Run<'_>, Point)) -> f64 {
 fn halts_within_its_stopping_distance() {
     for model in every_model_and_variants() {
         let bound = model.limits().stopping_distance;
-        let ways: [(&str, fn(&mut Run<'_>, Point)); 2] = [
-            ("told to be where it is", |run, here| {
-                run.turn(&Goal::stop_at(here));
-            }),
-            ("told to rest", |run, _| run.rest()),
-        ];
-        for (told, halt) in ways {
-            let farthest = halts_within(&*model, halt);
+        let stay = halts_within(&*model, |run, here| {
+            run.turn(&Goal::stop_at(here));
+        });
+        let rest = halts_within(&*model, |run, _| run.rest());
+        for (told, farthest) in [("told to be where it is", stay), ("told to rest", rest)] {
             let name = model.name();
             println!("{name}, {told}: halts within {farthest:.3} of {bound:.3} m");
             assert!(
