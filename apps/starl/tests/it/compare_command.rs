@@ -132,7 +132,7 @@ fn a_comparison_needs_two_versions() {
     assert_eq!(status(&output), 2);
     let text = stderr(&output);
     assert!(
-        text.starts_with("error: --set network.loss: 2 is not a probability"),
+        text.starts_with("error: --set-b network.loss: 2 is not a probability"),
         "{text}"
     );
 }

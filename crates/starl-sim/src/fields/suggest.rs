@@ -19,7 +19,7 @@ pub fn help(word: &str, candidates: &[&str], kind: &str) -> Option<String> {
     }
     match candidates.len() {
         0 => None,
-        1..=24 => Some(format!("{kind}: {}", candidates.join(", "))),
+        1..=16 => Some(format!("{kind}: {}", candidates.join(", "))),
         _ => None,
     }
 }
