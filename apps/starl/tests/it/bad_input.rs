@@ -446,3 +446,20 @@ fn options_are_named_as_given() {
         refused(&folder, arguments, &[expected]);
     }
 }
+
+/// The many kinds of events are listed, since an unknown kind resembles none of them.
+#[test]
+fn an_unknown_kind_of_event_lists_the_kinds() {
+    let folder = folder("unknown_event");
+    file(
+        &folder,
+        "event.toml",
+        "[[event]]\nat = \"1s\"\nkind = \"volcano\"\n",
+    );
+    let run = ["run", "race", "--faults", "event.toml"];
+    refused(
+        &folder,
+        &run,
+        &["choose one of: crash", "set_thing", "leave"],
+    );
+}

@@ -50,7 +50,9 @@ pub(crate) fn choice(node: &Node, words: &[&str]) -> Result<String, Complaint> {
     match &node.value {
         Value::Text(text) if words.contains(&text.as_str()) => Ok(text.clone()),
         Value::Text(text) => {
-            let help = suggest::help(text, words, "choose one of");
+            // Kinds of events are too many for other lists, but nothing else says which there are.
+            let all = || format!("choose one of: {}", words.join(", "));
+            let help = suggest::help(text, words, "choose one of").or_else(|| Some(all()));
             Err((format!("{text:?} is not one of the choices"), help))
         }
         _ => not_a(
