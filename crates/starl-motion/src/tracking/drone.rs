@@ -138,12 +138,9 @@ impl Gains {
         let (desired, change) = self.desired_velocity(estimate, goal);
         let gained = (self.own_acceleration(estimate) + tracking.push) * TILTING_TIME;
         let error = (desired - estimate.twist.linear - gained).at_height(0.0);
-        let wanted = error * VELOCITY_GAIN + change + desired * self.drag;
-        // Against the wind first, else the tilt for setting out across it takes from the lean against it.
-        let lean = shortened(tracking.push * -1.0, self.strength());
-        let others = wanted - push - lean;
+        let acceleration = error * VELOCITY_GAIN + change + desired * self.drag - push;
         let (sin, cos) = sincos(yaw);
-        let tilt = added_within(lean, others, self.strength()) / self.gravity;
+        let tilt = shortened(acceleration, self.strength()) / self.gravity;
         let (ahead, aside) = (cos * tilt.x + sin * tilt.y, sin * tilt.x - cos * tilt.y);
         let pitch = atan(ahead);
         let level = math::cos(pitch);
@@ -230,18 +227,6 @@ impl Gains {
         };
         (way * (speed / distance), change)
     }
-}
-
-/// The sum of a planar vector no longer than `limit` and as much of a second one as keeps the sum so.
-fn added_within(first: Point, second: Point, limit: f64) -> Point {
-    let square = second.dot(second);
-    if (first + second).planar_length() <= limit || square == 0.0 {
-        return first + second;
-    }
-    // The part of the second with which the sum is as long as the limit is the root of a quadratic.
-    let along = first.dot(second);
-    let room = (limit * limit - first.dot(first)).max(0.0);
-    first + second * ((math::sqrt(along * along + square * room) - along) / square)
 }
 
 /// A planar vector, scaled down to `limit` if it is longer.

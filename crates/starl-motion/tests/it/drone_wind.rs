@@ -110,28 +110,3 @@ fn it_knows_so_too_when_it_is_stopped_again_and_again() {
         assert_eq!(overpowered, expected, "{part} of the strongest wind");
     }
 }
-
-/// When it set out across a strong wind, the tilt for that took from its lean against the wind, and it was blown off its
-/// line by 0.2 m.
-#[test]
-fn it_sets_out_across_a_strong_wind_along_its_line() {
-    let drone = models::by_name("drone").unwrap();
-    for part in [0.5, 0.8, 0.9] {
-        let up = Pose::level(Point::new(0.0, 0.0, 1.0), 0.0);
-        let mut run = Run::new(&*drone, up, Positioning::EXACT, 3);
-        run.disturbance.wind = Point::planar(part * strongest(), 0.0);
-        for _ in 0..200 {
-            run.turn(&Goal::stop_at(Point::new(0.0, 0.0, 1.0)));
-        }
-        let mut farthest: f64 = 0.0;
-        for _ in 0..200 {
-            run.turn(&Goal::stop_at(Point::new(0.0, 3.0, 1.0)));
-            farthest = farthest.max(run.state.pose.position.x.abs());
-        }
-        assert!((run.state.pose.position.y - 3.0).abs() < 0.05);
-        assert!(
-            farthest < 0.05,
-            "{part} of the strongest wind: {farthest} m"
-        );
-    }
-}
