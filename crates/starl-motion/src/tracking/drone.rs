@@ -62,6 +62,9 @@ const OVERPOWERED_AFTER: f64 = 2.0;
 const HEIGHT_GAIN: f64 = 1.2;
 /// Up to this speed, metres per second, a drone that should be at rest is left to hover by itself.
 const HOVERING_SPEED: f64 = 0.2;
+/// Seconds after which a drone is left to hover even if it is faster, as an autopilot may be that moves in another way
+/// than its model.
+const LONGEST_BRAKING: f64 = 3.0;
 
 impl Gains {
     /// See [`crate::Limits::stopping_distance`]. At low speeds the loops are linear and the
@@ -160,11 +163,14 @@ impl Gains {
         let position = estimate.pose.position;
         let is_high = position.z >= 0.5 * self.lowest;
         if is_high && estimate.twist.linear.planar_length() > HOVERING_SPEED {
-            let start = *tracking.brakes_from.get_or_insert(position);
-            let goal = Goal::stop_at(start.at_height(position.z));
-            return self.drive(tracking, estimate, &goal);
+            let (start, since) = *tracking.brakes_from.get_or_insert((position, estimate.at));
+            if estimate.at.since(since).seconds() <= LONGEST_BRAKING {
+                let goal = Goal::stop_at(start.at_height(position.z));
+                return self.drive(tracking, estimate, &goal);
+            }
+        } else {
+            tracking.brakes_from = None;
         }
-        tracking.brakes_from = None;
         let period = tracking.period(estimate);
         match is_high {
             true => drop(self.observe(tracking, estimate, period)),

@@ -67,8 +67,8 @@ pub struct Tracking {
     overpowered: f64,
     /// How the robot moved at the estimate before this one, if its tracker has driven it since.
     last: Option<Moment>,
-    /// Where the robot was when it began to brake for a halt, while it brakes.
-    brakes_from: Option<Point>,
+    /// Where and when the robot began to brake for a halt, while it brakes.
+    brakes_from: Option<(Point, Time)>,
 }
 
 /// How a robot moved at an estimate.
