@@ -24,11 +24,14 @@ pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool
     };
     let seeds: Seeds = arguments.runs.seeds.parse()?;
     let b = arguments.b.as_ref().unwrap_or(&arguments.a);
-    let sides = [(&arguments.a, &arguments.set_a), (b, &arguments.set_b)];
-    let options = ["--set-a", "--set-b"];
-    let [a, b] = sides.map(|(target, set)| plan(target, set, arguments, seeds, registry));
-    let [a, b] = [(a, sides[0].1, options[0]), (b, sides[1].1, options[1])]
-        .map(|(plan, set, option)| plan.map_err(|failure| named_after(failure, set, option)));
+    let sides = [
+        (&arguments.a, &arguments.set_a, "--set-a"),
+        (b, &arguments.set_b, "--set-b"),
+    ];
+    let [a, b] = sides.map(|(target, set, option)| {
+        plan(target, set, arguments, seeds, registry)
+            .map_err(|failure| named_after(failure, set, option))
+    });
     let plans = [a?, b?];
     let stop = stop_on_interrupt();
     let progress = Count::new(
@@ -54,7 +57,7 @@ pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool
     for rows in &mut rows {
         rows.sort_by_key(|row| row.seed);
     }
-    let [a, b] = sides.map(|(target, set)| Side::new(target, set, &arguments.changes));
+    let [a, b] = sides.map(|(target, set, _)| Side::new(target, set, &arguments.changes));
     let comparison = Comparison::of(&rows[0], &rows[1]);
     let report = Report::of(
         comparison,
