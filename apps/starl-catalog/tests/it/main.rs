@@ -1,6 +1,7 @@
 //! The tests of `starl-catalog`, in one binary so that they link once.
 
 mod a_robot_alone;
+mod campaigns_write_what_they_ran;
 mod corruption_is_recovered_from;
 mod election_finds_leaders;
 mod flocking_lines_up;
@@ -14,6 +15,7 @@ mod intersection_throughput;
 mod journals_replay;
 mod line_is_even;
 mod mutex_gives_turns;
+mod peers_as_participants;
 mod policies_are_evaluated;
 mod program_parameters;
 mod programs_from_the_reference;

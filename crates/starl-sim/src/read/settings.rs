@@ -1,6 +1,6 @@
 //! Reads a scenario's top level and the tables that concern the run as a whole.
 
-use super::fleet::{self, Draft};
+use super::fleet;
 use super::inputs::{Recorder, Request};
 use super::names::Names;
 use super::section::Section;
@@ -31,7 +31,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
     let events = event::read(root, &mut names, duration, &network);
     let faults = fault::read(root, &names, duration);
     let contents = root.table("world", |table| world::read(table, &names, files));
-    let motion = root.table("motion", |table| motion(table, &positioning, &drafts));
+    let motion = root.table("motion", Motion::read);
 
     // Places make sense only in a world and with a fleet that are right.
     if root.report.count() > 0 {
@@ -41,7 +41,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
     let fleet = fleet::assemble(drafts, starts);
     reach::check(&fleet, &contents, root.report);
     let world = contents.world();
-    let scenario = Scenario {
+    let mut scenario = Scenario {
         title,
         seed,
         duration,
@@ -59,6 +59,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
         properties,
         trace,
     };
+    scenario.fit_avoidance();
     Some(scenario)
 }
 
@@ -81,16 +82,4 @@ fn goal(root: Section<'_>, text: String) -> Goal {
 fn stem(name: &str) -> String {
     let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
     base.strip_suffix(".toml").unwrap_or(base).to_string()
-}
-
-/// The accuracy of motion. Avoidance depends on the period of estimates and on the largest robot too.
-fn motion(table: Section<'_>, positioning: &Positioning, drafts: &[Draft]) -> Motion {
-    let radii = drafts.iter().map(|draft| draft.model.body().radius);
-    let largest_radius = radii.fold(0.0, f64::max);
-    let mut motion = Motion::read(table);
-    if let Some(avoidance) = &mut motion.avoidance {
-        avoidance.period = positioning.period.seconds();
-        avoidance.largest_radius = largest_radius;
-    }
-    motion
 }

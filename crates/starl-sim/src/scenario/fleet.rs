@@ -76,6 +76,12 @@ impl Fleet {
         self.len() == 0
     }
 
+    /// The radius of the largest robot, metres.
+    pub(crate) fn largest_radius(&self) -> f64 {
+        let groups = self.groups.iter().filter(|group| !group.starts.is_empty());
+        groups.fold(0.0, |largest, group| group.model.body().radius.max(largest))
+    }
+
     /// The group of a robot, and its index in it.
     pub fn group_of(&self, robot: RobotId) -> Option<(&Group, usize)> {
         let mut index = robot.index();

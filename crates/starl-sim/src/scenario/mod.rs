@@ -99,3 +99,14 @@ impl Default for Scenario {
         }
     }
 }
+
+impl Scenario {
+    /// Tells the avoidance of other robots what follows from the rest of the scenario: how often robots know where they
+    /// are, and how large the largest of them is.
+    pub(crate) fn fit_avoidance(&mut self) {
+        if let Some(avoidance) = &mut self.motion.avoidance {
+            avoidance.period = self.positioning.period.seconds();
+            avoidance.largest_radius = self.fleet.largest_radius();
+        }
+    }
+}

@@ -43,15 +43,7 @@ pub fn keep_robots(scenario: &Scenario, kept: &[usize]) -> Scenario {
         })
     });
     smaller.network.overrides = overrides.collect();
-    if let Some(avoidance) = &mut smaller.motion.avoidance {
-        // As the reader of scenarios has it.
-        let radii = smaller
-            .fleet
-            .groups
-            .iter()
-            .map(|group| group.model.body().radius);
-        avoidance.largest_radius = radii.fold(0.0, f64::max);
-    }
+    smaller.fit_avoidance();
     smaller
 }
 

@@ -2,8 +2,8 @@
 
 pub mod memory;
 
-use starl_catalog::examples;
 use starl_catalog::programs::Registry;
+use starl_catalog::{Application, examples};
 use starl_sim::Run;
 use starl_sim::read::{Override, Request, Source};
 
@@ -33,8 +33,8 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// The run before its first step.
-    pub fn start(&self) -> Run {
+    /// What runs.
+    pub fn application(&self) -> Application {
         let example = examples::find(self.example).expect("it is an example");
         let seed = self.seed.map(|seed| format!("seed={seed}"));
         let sets = self.sets.iter().copied().chain(seed.as_deref());
@@ -44,8 +44,12 @@ impl<'a> Case<'a> {
             faults: (!self.faults.is_empty()).then(|| Source::new("faults.toml", self.faults)),
             ..Request::new(example.source())
         };
-        let application = starl_catalog::read(&request, example, &Registry::default()).unwrap();
-        application.run().unwrap()
+        starl_catalog::read(&request, example, &Registry::default()).unwrap()
+    }
+
+    /// The run before its first step.
+    pub fn start(&self) -> Run {
+        self.application().run().unwrap()
     }
 
     /// The run when it is over.
