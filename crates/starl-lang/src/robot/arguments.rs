@@ -5,7 +5,7 @@ use alloc::borrow::Cow;
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use starl_core::motion::Obstacles;
-use starl_core::{Area, Duration, Point, RobotId};
+use starl_core::{Area, Duration, Point, Robot, RobotId};
 
 /// The result of a host function: the fuel it costs beyond one, or the reason of the failure.
 pub type Called = Result<u64, Cow<'static, str>>;
@@ -92,10 +92,15 @@ impl<'a> Arguments<'a> {
         points.collect()
     }
 
-    /// A set of robots.
-    pub fn robots(&mut self) -> BTreeSet<RobotId> {
-        let scalars = self.object().list().map_or(&[][..], List::scalars);
-        scalars.iter().map(|&robot| RobotId(robot as u32)).collect()
+    /// The participants of a primitive, if they are given. A set of the whole fleet is none: the fleet at each moment,
+    /// robots that join later too. Otherwise `peers` would be another set on each robot when one joins.
+    pub fn participants(&mut self, robot: &Robot<'_>) -> Option<Option<BTreeSet<RobotId>>> {
+        let given = self.optional(|arguments| {
+            let scalars = arguments.object().list().map_or(&[][..], List::scalars);
+            let robots = scalars.iter().map(|&robot| RobotId(robot as u32));
+            robots.collect::<BTreeSet<RobotId>>()
+        })?;
+        Some((!given.iter().eq(robot.fleet())).then_some(given))
     }
 
     /// A text, collection, area or obstacles.

@@ -37,11 +37,11 @@ impl Kind for Barrier {
 
     fn bind(
         _: &Instance,
-        _: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
         arguments: &mut Arguments<'_>,
     ) -> Result<Barrier, Cow<'static, str>> {
         let name = format!("barrier/{}", arguments.text());
-        let participants = arguments.optional(Arguments::robots);
+        let participants = arguments.participants(context.robot).flatten();
         Ok(Barrier::new(&name, participants, Options::default()))
     }
 

@@ -73,11 +73,11 @@ impl Kind for LeaderElection {
 
     fn bind(
         _: &Instance,
-        _: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
         arguments: &mut Arguments<'_>,
     ) -> Result<LeaderElection, Cow<'static, str>> {
         let name = format!("election/{}", arguments.text());
-        let participants = arguments.optional(Arguments::robots);
+        let participants = arguments.participants(context.robot).flatten();
         let algorithm = match arguments.optional(Arguments::int) {
             None => Algorithm::default(),
             Some(variant) => {

@@ -5,10 +5,10 @@ use crate::machine::{Body, List, Object};
 use crate::robot::shape::{MUTEX_ALGORITHMS, Shape};
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::vec::Vec;
-use starl_core::{Area, Primitive, Random, Robot, RobotId};
+use starl_core::{Area, Primitive, Random, Robot};
 use starl_primitives::Mutex;
 use starl_primitives::mutex::{AcquireError, Options, PlaceOptions, Resources};
 
@@ -39,8 +39,8 @@ impl Kind for Mutex {
             |mutex, context, call| {
                 let mut arguments = Arguments::after_instance(call);
                 let resources = texts(&mut arguments);
-                if let Some(participants) = arguments.optional(robots) {
-                    mutex.set_participants(Some(participants));
+                if let Some(participants) = arguments.participants(context.robot) {
+                    mutex.set_participants(participants);
                 }
                 let cost = 10 + resources.len() as u64;
                 match mutex.acquire(context.robot, resources) {
@@ -112,11 +112,11 @@ impl Kind for Mutex {
 
     fn bind(
         _: &Instance,
-        _: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
         arguments: &mut Arguments<'_>,
     ) -> Result<Mutex, Cow<'static, str>> {
         let name = format!("mutex/{}", arguments.text());
-        let participants = arguments.optional(robots);
+        let participants = arguments.participants(context.robot).flatten();
         let default = Options::default();
         let options = Options {
             algorithm: match arguments.optional(Arguments::int) {
@@ -211,11 +211,4 @@ fn names<'a>(arguments: &mut Arguments<'a>) -> impl Iterator<Item = &'a str> + u
     let elements = arguments.object().list().into_iter().flat_map(List::iter);
     let texts = elements.filter_map(|block| block.objects.first());
     texts.map(|text| text.text())
-}
-
-/// A set of robots.
-fn robots(arguments: &mut Arguments<'_>) -> BTreeSet<RobotId> {
-    let elements = arguments.object().list().into_iter().flat_map(List::iter);
-    let robots = elements.filter_map(|block| block.scalars.first());
-    robots.map(|&robot| RobotId(robot as u32)).collect()
 }
