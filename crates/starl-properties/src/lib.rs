@@ -11,6 +11,7 @@ mod broadcast_order;
 mod disturbance;
 mod election;
 mod excuse;
+mod failure_detector;
 mod geocast;
 mod health;
 mod heed;
@@ -162,6 +163,9 @@ pub fn checkers(setting: &Setting) -> Vec<Box<dyn Checker>> {
     }
     if wanted.barrier {
         checkers.push(Box::new(barrier::Barrier::new(setting)));
+    }
+    if wanted.failure_detector {
+        checkers.push(Box::new(failure_detector::FailureDetector::new(setting)));
     }
     checkers
 }

@@ -107,6 +107,10 @@ pub struct Properties {
     pub barrier: bool,
     /// Robots pass within this time of the arrival of the last; default 35 s.
     pub barrier_bound: Duration,
+    /// Failure detectors: completeness and accuracy; default true.
+    pub failure_detector: bool,
+    /// Crashes are suspected and false suspicions end within this time; default 35 s.
+    pub failure_detector_bound: Duration,
     /// The properties that programs in the StarL language declare; default true.
     pub program: bool,
 }
@@ -135,6 +139,8 @@ impl Properties {
             registration_bound,
             barrier: _,
             barrier_bound,
+            failure_detector: _,
+            failure_detector_bound,
             program: _,
         } = &mut self;
         for bound in [
@@ -147,6 +153,7 @@ impl Properties {
             mutex_bound,
             registration_bound,
             barrier_bound,
+            failure_detector_bound,
         ] {
             *bound = forever;
         }
@@ -177,6 +184,8 @@ impl Default for Properties {
             registration_bound: Duration::from_seconds(35),
             barrier: true,
             barrier_bound: Duration::from_seconds(35),
+            failure_detector: true,
+            failure_detector_bound: Duration::from_seconds(35),
             program: true,
         }
     }

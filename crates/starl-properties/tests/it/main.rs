@@ -7,6 +7,7 @@ mod documented;
 mod election_bounds;
 mod election_leaders;
 mod excuses;
+mod failure_detector;
 mod geocast_exclusion;
 mod geocast_inclusion;
 mod mutex_of_the_living;

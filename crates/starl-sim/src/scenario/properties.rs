@@ -47,6 +47,10 @@ field_table! {
         barrier: bool = Kind::Flag, Value("true");
         /// Within this time of the arrival of the last robots pass a barrier.
         barrier_bound: Duration = SPAN, Value("35s");
+        /// The guarantees of failure detectors.
+        failure_detector: bool = Kind::Flag, Value("true");
+        /// Within this time a robot that has crashed is suspected, and one that is heard is trusted.
+        failure_detector_bound: Duration = SPAN, Value("35s");
         /// The properties that programs in the StarL language declare: `invariant`, `always` and `eventually`.
         program: bool = Kind::Flag, Value("true");
     }

@@ -141,6 +141,8 @@ fn all_properties_hold_when_nothing_is_in_the_way() {
             "registration.convergence",
             "barrier.safety",
             "barrier.progress",
+            "failure_detector.completeness",
+            "failure_detector.accuracy",
         ]
     );
     assert_eq!(violated(&verdicts), [""; 0], "{verdicts:#?}");
