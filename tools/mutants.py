@@ -11,6 +11,9 @@ where it was stopped, unless sources have changed; `--keep` keeps results even s
 docs/reference/testing.md. A run that goes wrong is done again without the bug: if it goes wrong all the same it does not
 count, and the campaign says so and fails at its end, since then the fault is in the sources themselves.
 
+A checker that is too lenient finds nothing where all is well. Such a bug `hides` another one: it is caught if a run goes
+wrong with the other bug alone, and not with both.
+
 A bug that no run with faults has caught in its time meets the tests of its crate. What only these catch is counted
 apart: a test of one case shows that the bug would be noticed, and not that the workloads find such bugs.
 """
@@ -43,9 +46,10 @@ extern crate self as starl_core;
 extern crate std;
 /// Whether the bug of this number is on.
 pub fn planted(number: u32) -> bool {{
-    static CHOSEN: std::sync::OnceLock<u32> = std::sync::OnceLock::new();
-    let choose = || std::env::var("{VARIABLE}").map_or(0, |text| text.parse().expect("a number"));
-    *CHOSEN.get_or_init(choose) == number
+    static CHOSEN: std::sync::OnceLock<std::vec::Vec<u32>> = std::sync::OnceLock::new();
+    let read = |text: &str| text.split(',').map(|number| number.parse().expect("a number")).collect();
+    let choose = || read(&std::env::var("{VARIABLE}").unwrap_or("0".into()));
+    CHOSEN.get_or_init(choose).contains(&number)
 }}
 """
 
@@ -85,6 +89,13 @@ def read_mutants():
         commands = mutant.get("caught_by", usual) or fail(f"{name}: it has no workload")
         mutant["commands"] = [command_of(name, known, command) for command in commands]
     names = [mutant["name"] for mutant in mutants]
+    for mutant in mutants:
+        other = mutant.get("hides")
+        if other and other not in names:
+            fail(f"{mutant['name']} hides {other}, which is not listed")
+        # The bugs with which a run is to go wrong, and those with which the same run is not to.
+        number, shown = mutant["number"], other and names.index(other) + 1
+        mutant["wrong_with"], mutant["right_with"] = (shown, f"{shown},{number}") if other else (number, 0)
     if len(set(names)) < len(names):
         fail(f"two bugs have the same name: {next(name for name in names if names.count(name) > 1)}")
     return mutants
@@ -259,7 +270,7 @@ def attempt(mutant, seconds):
                 block = ["--seeds", str(seeds), "--first-seed", str(first), "--shrink", "0"]
             before = core_seconds()
             out = [] if is_exploration else ["--out", str(TARGET / "found" / mutant["name"])]
-            found = judge(text, *run(mutant["number"], [*arguments, *block, *out], left))
+            found = judge(text, *run(mutant["wrong_with"], [*arguments, *block, *out], left))
             runs += found[0]
             if found[1] and (is_exploration or goes_wrong_only_with_it(mutant, arguments, block, found)):
                 profile = found[2] and found[2][0]
@@ -302,7 +313,7 @@ def crate_of(mutant):
 
 
 def goes_wrong_only_with_it(mutant, arguments, block, found):
-    """Whether the run that went wrong with a bug does not without it."""
+    """Whether the run that went wrong with a bug does not without it, or with a checker that hides the bug."""
     if found[2]:
         profile, seed = found[2]
         if "--profile" in arguments:
@@ -310,8 +321,8 @@ def goes_wrong_only_with_it(mutant, arguments, block, found):
             arguments = arguments[:at] + arguments[at + 2 :]
         block = ["--profile", profile, "--first-seed", str(seed), "--seeds", "1", "--shrink", "0"]
     out = ["--out", str(TARGET / "found" / "none")]
-    what = judge(mutant["name"], *run(0, [*arguments, *block, *out], 600))[1]
-    if what:
+    what = judge(mutant["name"], *run(mutant["right_with"], [*arguments, *block, *out], 600))[1]
+    if what and "hides" not in mutant:
         WITHOUT_BUGS.append(f"{what} without any bug: {shlex.join(['starl', *arguments, *block])}")
         print(WITHOUT_BUGS[-1], flush=True)
     return not what

@@ -1,14 +1,22 @@
 //! When a robot's heartbeats came, and until when the next one is due.
 
+use super::Heartbeat;
 use super::options::Options;
+use alloc::collections::VecDeque;
 use starl_core::{Duration, Time, math};
 
 /// The share of each new interval in mean and variance: about the last sixteen count.
 const WEIGHT: f64 = 1.0 / 16.0;
 
+/// So many lives of a robot are remembered: late copies of their heartbeats do not look like restarts.
+const LIVES: usize = 64;
+
+/// A heartbeat that is further behind is no late copy: a corruption has left the greater number.
+const FURTHEST: u32 = 1000;
+
 /// The knowledge of one robot. Intervals are in seconds; mean and variance fade exponentially (West
 /// 1979), so that they follow a network that changes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Arrivals {
     /// Drawn by the robot when it started; none before it was heard.
     pub incarnation: Option<u32>,
@@ -21,6 +29,8 @@ pub(super) struct Arrivals {
     /// Beyond what is usual.
     margin: Duration,
     pub is_suspected: bool,
+    /// The lives that are over, each with the number of its latest heartbeat.
+    earlier: VecDeque<(u32, u32)>,
 }
 
 impl Arrivals {
@@ -35,7 +45,44 @@ impl Arrivals {
             variance: period * period / 16.0,
             margin: options.margin,
             is_suspected: false,
+            earlier: VecDeque::new(),
         }
+    }
+
+    /// Whether the heartbeat says nothing about the present: it is a late copy, or the robot has restarted since.
+    pub fn is_late(&mut self, beat: &Heartbeat) -> bool {
+        let is_copy = |latest: u32| {
+            // Counted round the circle.
+            let behind = latest.wrapping_sub(beat.number);
+            behind < FURTHEST || behind as i32 >= 0 && !self.is_suspected
+        };
+        if self.incarnation == Some(beat.incarnation) {
+            return is_copy(self.number);
+        }
+        let mut lives = self.earlier.iter();
+        let Some(place) = lives.position(|(life, _)| *life == beat.incarnation) else {
+            return false;
+        };
+        let is_late = is_copy(self.earlier[place].1) || !self.is_suspected;
+        if !is_late {
+            // It is not over: a corruption has made it look so.
+            self.earlier.remove(place);
+        }
+        is_late
+    }
+
+    /// A heartbeat is the latest one. Returns whether it is the first of a new life, although another one was heard.
+    pub fn note(&mut self, beat: &Heartbeat) -> bool {
+        let before = self.incarnation.replace(beat.incarnation);
+        let latest = core::mem::replace(&mut self.number, beat.number);
+        let over = before.filter(|before| *before != beat.incarnation);
+        if let Some(over) = over {
+            if self.earlier.len() == LIVES {
+                self.earlier.pop_front();
+            }
+            self.earlier.push_back((over, latest));
+        }
+        over.is_some()
     }
 
     /// A heartbeat came that is later than those before.

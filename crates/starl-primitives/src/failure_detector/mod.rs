@@ -172,15 +172,13 @@ impl FailureDetector {
         let Some(arrivals) = self.peers.get_mut(&message.from) else {
             return;
         };
-        let before = arrivals.incarnation.replace(beat.incarnation);
-        if before == Some(beat.incarnation) {
-            // Counted round the circle, so that a number that was corrupted is soon behind again.
-            let later = beat.number.wrapping_sub(arrivals.number) as i32 > 0;
-            if !later && !arrivals.is_suspected {
-                return;
-            }
-            arrivals.number = beat.number;
-            if arrivals.is_suspected {
+        if arrivals.is_late(&beat) {
+            return;
+        }
+        let (is_known, was_suspected) = (arrivals.incarnation.is_some(), arrivals.is_suspected);
+        let has_restarted = arrivals.note(&beat);
+        if is_known && !has_restarted {
+            if was_suspected {
                 arrivals.forgive(&self.options);
                 arrivals.last = now;
                 self.trust(robot, message.from);
@@ -189,13 +187,11 @@ impl FailureDetector {
             }
             return;
         }
-        arrivals.number = beat.number;
         arrivals.last = now;
-        let was_suspected = arrivals.is_suspected;
-        if before.is_some() && !was_suspected {
+        if has_restarted && !was_suspected {
             self.suspect(robot, message.from, Suspicion::Restart);
         }
-        if before.is_some() || was_suspected {
+        if has_restarted || was_suspected {
             self.trust(robot, message.from);
         }
     }

@@ -110,3 +110,45 @@ fn a_robot_that_joins_is_watched_too() {
     world.run_for(SECOND * 5);
     assert_eq!(told(&world, 0), [Input::Suspected(RobotId(2))]);
 }
+
+/// Every datagram arrives twice, and each copy ten seconds late with a chance of one half.
+fn late_copies() -> Wire {
+    Wire {
+        duplication: 1.0,
+        late: (0.5, 10_000),
+        ..Wire::perfect()
+    }
+}
+
+#[test]
+fn late_copies_of_an_earlier_life_are_no_restarts() {
+    for seed in 0..20 {
+        let mut world = world(3, seed, late_copies());
+        world.run_for(SECOND * 60);
+        let before = told(&world, 0).len();
+        world.crash(1);
+        world.start(1);
+        world.run_for(SECOND * 20);
+        let verdicts = &told(&world, 0)[before..];
+        let suspicions = |verdict: &&Input| **verdict == Input::Suspected(RobotId(1));
+        let count = verdicts.iter().filter(suspicions).count();
+        assert_eq!(count, 1, "seed {seed}: {verdicts:?}");
+    }
+}
+
+#[test]
+fn late_copies_are_no_sign_of_life() {
+    for seed in 0..20 {
+        let mut world = world(3, seed, late_copies());
+        world.run_for(SECOND * 60);
+        let before = told(&world, 0).len();
+        world.crash(1);
+        world.run_for(SECOND * 40);
+        let verdicts = &told(&world, 0)[before..];
+        let trusts = |verdict: &&Input| **verdict == Input::Trusted(RobotId(1));
+        // A heartbeat that was held back may be the latest.
+        let count = verdicts.iter().filter(trusts).count();
+        assert!(count <= 1, "seed {seed}: {verdicts:?}");
+        assert_eq!(suspected(&world, 0), [1], "seed {seed}");
+    }
+}

@@ -83,7 +83,8 @@ impl Agreement {
         }
     }
 
-    /// The sender has given it up. This is an error only without a fault that explains it; then the bound decides.
+    /// The sender has given it up. This is an error only without a fault that explains it and in a majority; then the
+    /// bound decides.
     pub fn failed(&mut self, key: MessageKey, excused: &mut Excused) {
         let Some((sent, _)) = self.handed.get(&key) else {
             return;
@@ -91,6 +92,9 @@ impl Agreement {
         if self.last_fault.is_some_and(|at| *sent < at + RECOVERY) {
             self.handed.remove(&key);
             excused.note(AGREEMENT, Excuse::Recovery);
+        } else if self.majority_with(key.from).is_none() || self.may_lack_voters(key.from) {
+            self.handed.remove(&key);
+            excused.note(AGREEMENT, Excuse::NoMajority);
         }
     }
 
@@ -162,31 +166,38 @@ impl Agreement {
             }
         }
 
-        let with_sender = |robot: &RobotId| {
-            *robot == key.from || self.parts.together_since(key.from, *robot) != Time::NEVER
-        };
-        let is_well = |robot: &RobotId| self.health.well_from(*robot) != Time::NEVER;
-        let all = (0..self.robots).map(RobotId);
-        let near: Vec<RobotId> = all.filter(is_well).filter(with_sender).collect();
         let has_been = |robot: &RobotId| {
             let joined = self.joined.get(&(key.port, *robot));
             self.health.well_from(*robot) <= sent && joined.is_some_and(|&at| at <= sent)
         };
-        if self.may_lack_voters(|robot| with_sender(&robot)) {
+        if self.may_lack_voters(key.from) {
             excused.note(AGREEMENT, Excuse::NoMajority);
             return Vec::new();
         }
         // A sender that has stopped since may never have told anyone.
-        if near.len() <= self.robots as usize / 2 || !has_been(&key.from) {
+        if !has_been(&key.from) {
             return Vec::new();
         }
-        near.into_iter().filter(has_been).collect()
+        let near = self.majority_with(key.from).into_iter().flatten();
+        near.filter(has_been).collect()
+    }
+
+    fn is_with(&self, sender: RobotId, robot: RobotId) -> bool {
+        robot == sender || self.parts.together_since(sender, robot) != Time::NEVER
+    }
+
+    /// The robots that work and are in one part with a sender, if they are a majority.
+    fn majority_with(&self, sender: RobotId) -> Option<Vec<RobotId>> {
+        let is_well = |robot: &RobotId| self.health.well_from(*robot) != Time::NEVER;
+        let all = (0..self.robots).map(RobotId).filter(is_well);
+        let near: Vec<RobotId> = all.filter(|robot| self.is_with(sender, *robot)).collect();
+        (near.len() > self.robots as usize / 2).then_some(near)
     }
 
     /// Whether the robots that are down or apart leave too few voters to decide: others have restarted, and vote again
     /// only when a leader has let them in.
-    fn may_lack_voters(&self, with_sender: impl Fn(RobotId) -> bool) -> bool {
-        let is_away = |robot: &RobotId| self.down.contains(robot) || !with_sender(*robot);
+    fn may_lack_voters(&self, sender: RobotId) -> bool {
+        let is_away = |robot: &RobotId| self.down.contains(robot) || !self.is_with(sender, *robot);
         let mut lost: BTreeSet<RobotId> = (0..self.robots).map(RobotId).filter(is_away).collect();
         if lost.is_empty() {
             return false;

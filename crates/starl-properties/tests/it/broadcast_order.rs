@@ -302,6 +302,22 @@ fn giving_up_is_excused_only_near_a_fault() {
     assert_only(&story.verdict(90_000), property, 45_000, &[0, 0, 1, 2]);
 }
 
+#[test]
+fn a_robot_without_a_majority_may_give_up_long_after_the_cut_and_shortly_before_its_end() {
+    let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+    story.fault(2000, None, "partition");
+    story.sends(2300, 1, 2, 1);
+    sends(&mut story, 40_000, 0, 2, "total");
+    gives_up(&mut story, 44_000, 0, 2);
+    story.fault(44_500, None, "heal");
+    assert_none(&story.verdict(90_000));
+    // In a majority it may not.
+    sends(&mut story, 80_000, 0, 3, "total");
+    gives_up(&mut story, 84_000, 0, 3);
+    let property = "broadcast.agreement";
+    assert_only(&story.verdict(90_000), property, 85_000, &[0, 0, 1, 2]);
+}
+
 /// Three robots that have delivered the same messages; then these crash and restart.
 fn ordered_with_restarts(robots: &[u32]) -> Story {
     let mut story = ordered([[(0, 1), (1, 1)]; 3]);
