@@ -19,6 +19,8 @@ pub struct Keeper {
     left: u32,
     /// The longest pause between two.
     pause: Duration,
+    /// An operation that takes longer is withdrawn.
+    patience: Duration,
     under_way: Option<Operation>,
     next: Time,
 }
@@ -27,16 +29,19 @@ pub struct Keeper {
 struct Operation {
     id: OperationId,
     is_claim: bool,
+    /// When it is withdrawn.
+    end: Time,
 }
 
 impl Keeper {
     /// A robot that has not started.
-    pub fn new(operations: u32, pause: Duration) -> Keeper {
+    pub fn new(operations: u32, pause: Duration, patience: Duration) -> Keeper {
         Keeper {
             detector: FailureDetector::new("detector", failure_detector::Options::default()),
             register: Register::new("register", None, Options::default()),
             left: operations,
             pause,
+            patience,
             under_way: None,
             next: Time::ZERO,
         }
@@ -48,19 +53,24 @@ impl Keeper {
             return true;
         };
         match self.register.status(operation.id) {
-            Progress::Pending | Progress::NoQuorum => return false,
+            Progress::Pending | Progress::NoQuorum if robot.now() < operation.end => return false,
+            Progress::Pending | Progress::NoQuorum => {
+                self.register.withdraw(robot, operation.id);
+                self.under_way = None;
+            }
             Progress::Done(_) if operation.is_claim => {
                 let value = value(robot);
                 let written = self.register.write_claimed(robot, UPDATED, value);
-                self.note(written.ok(), false);
+                self.note(robot.now(), written.ok(), false);
             }
             _ => self.under_way = None,
         }
         self.under_way.is_none()
     }
 
-    fn note(&mut self, id: Option<OperationId>, is_claim: bool) {
-        self.under_way = id.map(|id| Operation { id, is_claim });
+    fn note(&mut self, now: Time, id: Option<OperationId>, is_claim: bool) {
+        let end = now + self.patience;
+        self.under_way = id.map(|id| Operation { id, is_claim, end });
     }
 }
 
@@ -92,7 +102,7 @@ impl Program for Keeper {
             }
             _ => (self.register.claim(robot, UPDATED), true),
         };
-        self.note(id.ok(), is_claim);
+        self.note(now, id.ok(), is_claim);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

@@ -66,10 +66,11 @@ impl Default for Registry {
             .with("diffusion", diffusion, |_| Diffusion)
             .with("drive", drive, Drive::new)
             .with("keeper", keeper, |parameters| {
-                let pause = Duration::from_millis(500);
+                let (pause, patience) = (Duration::from_millis(500), Duration::from_seconds(3600));
                 Keeper::new(
                     parameters.count("operations", 20),
                     parameters.duration("pause", pause),
+                    parameters.duration("patience", patience),
                 )
             })
             .with("radio", radio, |_| Radio::default())
