@@ -245,7 +245,7 @@ def test_transport_needs_enough_carriers() -> None:
 
 
 def test_a_touch_catches_the_evader() -> None:
-    task = tasks.Pursuit(2)
+    task = tasks.Pursuit(3)
     env = VectorEnv(task, 1)
     env.reset(seed=2)
     env.world.place(np.arange(1), np.array([[[-0.5, 0.0], [0.0, 1.8], [0.0, 0.0]]]))

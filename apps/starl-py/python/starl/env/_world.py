@@ -77,6 +77,17 @@ class World:
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         self.quantities[name][...] = values
 
+    def mean(self, name: str, *, where: str, least: str | float = 1) -> Floats:
+        """The mean of a quantity over the robots of each environment of which a Bool is true: (E, 1, k). It is 0 where
+        there are fewer than `least` of them, a number or the name of a value."""
+        from starl.env._quantities import quantity
+
+        chosen = quantity(self, where, "where")
+        needed = quantity(self, least, "least")[:, :1] if isinstance(least, str) else least
+        count = chosen.sum(axis=1, keepdims=True)
+        total: Floats = (quantity(self, name, "mean") * chosen).sum(axis=1, keepdims=True)
+        return np.where(count >= np.maximum(needed, 1), total / np.maximum(count, 1), 0.0)
+
     @property
     def action_numbers(self) -> int:
         """How many numbers a robot's action has, with its message."""
