@@ -60,7 +60,7 @@ def test(
     """Runs a scenario under profiles of faults with many seeds, as `starl test` does, and makes the first `shrink` runs
     that go wrong smaller, trying up to `most_trials` scenarios for each. Threads, processes and cluster are as for
     `sweep`; the results do not depend on them."""
-    scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
+    scenario = Scenario._from(scenario)
     chosen = range(1, seeds + 1) if isinstance(seeds, int) else seeds
     if chosen.step != 1 or not chosen or chosen[0] < 0:
         raise StarlError(f"{seeds}: give a range of seeds that follow each other, at least one")

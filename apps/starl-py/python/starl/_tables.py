@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import NDArray
 
 from starl import _native
+from starl._extras import needed
 
 if TYPE_CHECKING:
     import pandas
@@ -42,9 +43,8 @@ class Table:
 
     def to_polars(self) -> polars.DataFrame:
         """As a data frame of Polars."""
-        import polars
-
-        return polars.DataFrame(self)
+        frame: polars.DataFrame = needed("polars", "frames").DataFrame(self)
+        return frame
 
     def to_pandas(self) -> pandas.DataFrame:
         """As a data frame of pandas, which needs pandas 2.2 with PyArrow, or pandas 3."""
