@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from types import EllipsisType
+from types import EllipsisType, NoneType
 from typing import Any, Literal, TypeVar
+
+import numpy as np
 
 from starl._errors import StarlError
 
@@ -89,6 +91,27 @@ class Settings:
     radio: Radio | None = None
     #: "commands": the controls of the model, each from -1 to 1.
     actions: Waypoints | Literal["commands"] = "commands"
+
+    def check(self) -> None:
+        """Refuses values of the wrong type; the native module refuses numbers that are out of their range."""
+        if not isinstance(self.robots, (int, np.integer)) or self.robots < 1:
+            raise StarlError(f"robots: {self.robots!r} is not a number of robots; give a whole number from 1")
+        kinds: list[tuple[str, Any, type | tuple[type, ...], str]] = [
+            ("lidar", self.lidar, (Lidar, NoneType), "a `Lidar`"),
+            ("radio", self.radio, (Radio, NoneType), "a `Radio`"),
+            ("model", self.model, (str, Sequence), "the name of a model, or a list of them"),
+            ("parameters", self.parameters, (Mapping, Sequence), "a dictionary, or a list of them"),
+            *(("obstacles", one, (Circle, Box), "a `Circle` or a `Box`") for one in self.obstacles),
+        ]
+        if self.actions != "commands":
+            kinds.append(("actions", self.actions, Waypoints, '"commands" or `Waypoints`'))
+        for name, value, kind, what in kinds:
+            if not isinstance(value, kind):
+                raise StarlError(f"{name}: {value!r} is not {what}")
+        if self.lidar and not 0 < self.lidar.rays < 2**16:
+            raise StarlError(f"lidar: {self.lidar.rays} rays; use 1 to 65535")
+        if self.walls is not None and np.shape(self.walls) != (4,):
+            raise StarlError(f"walls: {self.walls!r} is not left, bottom, right, top")
 
     def models(self) -> list[tuple[str, list[tuple[str, float]]]]:
         """The model of each robot with its parameters."""
