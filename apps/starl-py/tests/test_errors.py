@@ -43,6 +43,14 @@ def race() -> Any:
         (lambda: starl.sweep(7), "7 is not a scenario"),  # type: ignore[arg-type]
         (lambda: starl.test([]), r"\[\] is not a scenario"),  # type: ignore[arg-type]
         (lambda: starl.Scenario("race", robots=3), 'robots: 3 is not a fleet; write it as "create=4"'),  # type: ignore[arg-type]
+        (lambda: starl.sweep("race", ["network.loss"]), "set: .* is not a dictionary"),  # type: ignore[arg-type]
+        (lambda: starl.sweep("race", cluster=5), "cluster: 5 is not an address"),  # type: ignore[arg-type]
+        (lambda: starl.sweep("race", threads="2"), "'2' threads: give at least 1"),  # type: ignore[arg-type]
+        (lambda: starl.test("race", seeds="5"), "seeds: '5' is not a whole number"),  # type: ignore[arg-type]
+        (lambda: starl.test("race", shrink=-1), "shrink: -1 is not a whole number from 0"),
+        (lambda: starl.test("race", most_trials=-1), "most_trials: -1 is not a whole number from 0"),
+        (lambda: starl.Scenario("race", program=starl.RobotProgram), r"give an object, `RobotProgram\(\.\.\.\)`"),  # type: ignore[arg-type]
+        (lambda: starl.Scenario("race", program=7), "program: 7 is not a program"),  # type: ignore[arg-type]
         (lambda: starl.Scenario.from_text(b""), "a scenario is a str, not bytes"),  # type: ignore[arg-type]
         (lambda: starl.Program(None), "a program is a str, not NoneType"),  # type: ignore[arg-type]
         (lambda: starl.Program("program A\n\udc80"), r"not Unicode in line 2: '\\udc80'"),
@@ -61,6 +69,11 @@ def test_numbers_of_numpy_are_numbers() -> None:
         simulation.push(kind(0), np.array([0.1, 0.0, 0.0]))
         simulation.run(steps=kind(300))
     assert numbers.digest == plain.digest
+
+
+def test_one_profile_may_be_given_by_its_name() -> None:
+    found = starl.test("race", seeds=np.int64(2), profiles="calm")  # type: ignore[arg-type]
+    assert [(run["profile"], run["seed"]) for run in found.runs] == [("calm", 1), ("calm", 2)]
 
 
 def test_one_topic_may_be_given_by_its_name() -> None:

@@ -74,7 +74,7 @@ class Scenario:
         self,
         example: str | None = None,
         *,
-        program: Program | RobotProgram | str | None = None,
+        program: Program | RobotProgram | str | Path | None = None,
         robots: str | None = None,
         faults: str | Path | None = None,
         seed: int | None = None,
@@ -134,7 +134,7 @@ class Scenario:
     def _change(
         self,
         *,
-        program: Program | RobotProgram | str | None = None,
+        program: Program | RobotProgram | str | Path | None = None,
         robots: str | None = None,
         faults: str | Path | None = None,
         seed: int | None = None,
@@ -149,7 +149,12 @@ class Scenario:
             name = type(program).__name__
             self._programs = {name: program}
             options["program"] = name
+        elif isinstance(program, type) and issubclass(program, RobotProgram):
+            raise StarlError(f"program: give an object, `{program.__name__}(...)`, and not the class")
         elif program is not None:
+            if not isinstance(program, (str, Path)):
+                raise StarlError(f"program: {program!r} is not a program, a file, or an example's name")
+            program = str(program)
             if program.endswith(".starl") and program not in self._files and Path(program).exists():
                 self._files[program] = _read(program)
             options["program"] = program

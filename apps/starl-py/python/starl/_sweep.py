@@ -113,6 +113,8 @@ def sweep(
     connected to, that RAY_ADDRESS names or that runs on this machine, "local" starts one, and other texts are addresses.
     Programs in Python share one lock on threads. The rows are the same anywhere."""
     scenario = Scenario._from(scenario)
+    if set is not None and not isinstance(set, Mapping):
+        raise StarlError(f"set: {set!r} is not a dictionary of fields and their values")
     axes = [_axis(*leaf) for name, values in (set or {}).items() for leaf in _leaves(name, values)]
     first = _native_call(_native.Sweep.first_values, axes)
     engine = scenario._engine()
