@@ -2,12 +2,13 @@
 small network, the same for all robots. Needs `starl[env]` and `onnx`.
 
 `python apps/starl-py/examples/train_crossing.py --out examples/crossing/crossing.onnx` prints, every twenty rounds, the part of
-the robots that end at their goals and the part of the episodes in which robots touch.
+the robots that end at their goals and the part of the episodes in which robots touch, and at last the processor time.
 """
 
 from __future__ import annotations
 
 import argparse
+import time
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 from onnx import TensorProto, helper, numpy_helper
 
-from starl.env import VectorEnv, tasks
+from starl.env import VectorEnv, World, tasks
 
 Array = NDArray[np.floating[Any]]
 
@@ -32,48 +33,43 @@ class Crossing(tasks.Crossing):
     """Robots that know each other's positions. What they see and do is relative to the direction of their goals.
 
     They see the distance to the goal, at most 1, and for each of eight directions how close the closest robot there is.
+    Their reward is metres towards the goal, less a cost for being near another robot, and a high one for touching it.
     """
 
     max_steps = 120
+    reward = """distance(previous.position, goal) - distance(position, goal) - max(0.45 - nearest, 0.0)
+        - (if touched then 0.5 else 0.0)"""
 
     def __init__(self, robots: int) -> None:
         super().__init__(robots, half=1.5, lidar=None, parameters={"radius": 0.15, "speed": 0.5, "cruise_speed": 0.5})
 
-    def reset(self, world: Any, envs: Any) -> None:
+    def reset(self, world: World, envs: NDArray[np.int64]) -> None:
         """Half of the episodes begin in a ring, the others anywhere."""
         super().reset(world, envs)
-        anywhere = world.scatter(envs, 2 * world.robots, (-1.7, -1.7), (1.7, 1.7), gap=0.1)
-        mixed = world.uniform(envs, 1)[:, 0] < 0.5
-        places = np.where(mixed[:, None, None], anywhere[:, : world.robots, :2], world.positions[envs])
-        goals = np.where(mixed[:, None, None], anywhere[:, world.robots :, :2], self.goals[envs])
-        world.place(envs, places)
-        self.goals[envs] = goals
-        self.left[envs] = self._distances(world)[envs]
+        anywhere = world.scatter(envs, 2 * world.robots, (-1.7, -1.7), (1.7, 1.7), gap=0.1)[..., :2]
+        is_ring = world.uniform(envs, 1)[:, :, None] < 0.5
+        world["goal"][envs] = np.where(is_ring, world["goal"][envs], anywhere[:, world.robots :])
+        world.place(envs, np.where(is_ring, world.positions[envs], anywhere[:, : world.robots]))
 
-    def ahead(self, world: Any) -> Array:
-        """The direction of the goal from each robot, radians."""
-        way = self.goals - world.positions
-        return np.asarray(np.arctan2(way[..., 1], way[..., 0]))
+    def observe(self, world: World) -> list[Array]:
+        """The distance to the goal, (E, N, 1), and the closeness in each direction, (E, N, 8)."""
+        ahead, left, distance = frames(world)
+        ways = (world.positions[:, None] - world.positions[:, :, None]).astype(np.float32)
+        apart = np.maximum(np.hypot(ways[..., 0], ways[..., 1]), 1e-6)
+        ways *= (np.maximum(0, 1 - apart / SIGHT) / apart)[..., None]
+        # Vectors to the others, (E, N, N, 2), as long as these are close, and their lengths in each direction.
+        close = ways @ np.stack([ahead, left], axis=-1).astype(np.float32)
+        angles = np.arange(LOBES) * 2 * np.pi / LOBES
+        seen = (close @ np.stack([np.cos(angles), np.sin(angles)]).astype(np.float32)).max(axis=2)
+        return [np.minimum(1, distance)[..., None], np.maximum(0, seen)]
 
-    def observe(self, world: Any) -> list[Array]:
-        ways = world.positions[:, None] - world.positions[:, :, None]
-        apart = np.hypot(ways[..., 0], ways[..., 1])
-        closeness = np.maximum(0, 1 - apart / SIGHT)
-        closeness[:, np.arange(world.robots), np.arange(world.robots)] = 0
-        angle = np.arctan2(ways[..., 1], ways[..., 0]) - self.ahead(world)[..., None]
-        lobes = np.arange(LOBES) * 2 * np.pi / LOBES
-        seen = closeness[..., None] * np.maximum(0, np.cos(angle[..., None] - lobes))
-        return [np.minimum(1, self._distances(world))[..., None], seen.max(axis=2)]
 
-    def reward(self, world: Any) -> Array:
-        """Metres towards the goal, less a cost for being near another robot, and a high one for touching it."""
-        before, self.left = self.left, self._distances(world)
-        ways = world.positions[:, None] - world.positions[:, :, None]
-        apart = np.hypot(ways[..., 0], ways[..., 1])
-        apart[:, np.arange(world.robots), np.arange(world.robots)] = np.inf
-        near = np.maximum(0, 0.45 - apart.min(axis=2))
-        touches: Array = world.contacts >= 0
-        return np.asarray(before - self.left - near - 0.5 * touches)
+def frames(world: World) -> tuple[Array, Array, Array]:
+    """The directions to each robot's goal and to the left of it, (E, N, 2), and the distance to it, (E, N)."""
+    way = world["goal"] - world.positions
+    distance = np.hypot(way[..., 0], way[..., 1])
+    ahead = way / np.maximum(distance, 1e-9)[..., None]
+    return ahead, np.stack([-ahead[..., 1], ahead[..., 0]], axis=-1), distance
 
 
 def split(weights: Array) -> list[tuple[Array, Array]]:
@@ -103,10 +99,9 @@ def play(env: VectorEnv, task: Crossing, weights: Array, seeds: list[int]) -> tu
     actions = np.zeros((environments, robots, 3), np.float32)
     for _ in range(task.max_steps):
         rows = seen.reshape(len(weights), -1, LAYERS[0])
-        forward, left = np.moveaxis(evaluate(weights, rows).reshape(environments, robots, 2), -1, 0)
-        ahead = task.ahead(env.world)
-        actions[..., 0] = forward * np.cos(ahead) - left * np.sin(ahead)
-        actions[..., 1] = forward * np.sin(ahead) + left * np.cos(ahead)
+        does = evaluate(weights, rows).reshape(environments, robots, 2)
+        ahead, left, _ = frames(env.world)
+        actions[..., :2] = does[..., :1] * ahead + does[..., 1:] * left
         seen, _, terminated, truncated, infos = env.step(actions)
         total += np.where(is_open, infos["robot_rewards"].mean(axis=1), 0)
         over = (terminated | truncated) & is_open
@@ -114,6 +109,8 @@ def play(env: VectorEnv, task: Crossing, weights: Array, seeds: list[int]) -> tu
         if over.any():
             arrived[over] = infos["final_info"]["arrived"][over]
         is_open &= ~over
+        if not is_open.any():
+            break
     return total, arrived, touched
 
 
@@ -140,6 +137,7 @@ def main() -> None:
     parser.add_argument("--networks", type=int, default=48)
     parser.add_argument("--situations", type=int, default=12)
     parser.add_argument("--rounds", type=int, default=200)
+    parser.add_argument("--episodes", type=int, default=256, help="to judge a policy by")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", default="crossing.onnx")
     arguments = parser.parse_args()
@@ -147,13 +145,13 @@ def main() -> None:
     task, judged = Crossing(arguments.robots), Crossing(arguments.robots)
     networks, situations = arguments.networks, arguments.situations
     env = VectorEnv(task, networks * situations, autoreset_mode=AutoresetMode.SAME_STEP, threads=2)
-    judge = VectorEnv(judged, 256, autoreset_mode=AutoresetMode.SAME_STEP, threads=2)
+    judge = VectorEnv(judged, arguments.episodes, autoreset_mode=AutoresetMode.SAME_STEP, threads=2)
     size = sum((inputs + 1) * outputs for inputs, outputs in zip(LAYERS, LAYERS[1:], strict=False))
     mean, deviation = 0.3 * random.standard_normal(size), 0.1
     first, second = np.zeros(size), np.zeros(size)
     for round in range(arguments.rounds + 1):
         if round % 20 == 0 or round == arguments.rounds:
-            _, arrived, touched = play(judge, judged, mean[None], list(range(256)))
+            _, arrived, touched = play(judge, judged, mean[None], list(range(arguments.episodes)))
             print(f"round {round}: {arrived.mean():.0%} of the robots arrive; {touched.mean():.0%} touch", flush=True)
             export(mean, arguments.out)
         # Pairs of opposite changes, compared by rank, in the same situations.
@@ -168,7 +166,7 @@ def main() -> None:
         second = 0.999 * second + 0.001 * gradient**2
         step = first / (1 - 0.9 ** (round + 1)) / (np.sqrt(second / (1 - 0.999 ** (round + 1))) + 1e-8)
         mean += 0.04 * step - 0.0002 * mean
-    print(f"the policy is in {arguments.out}")
+    print(f"the policy is in {arguments.out}, after {time.process_time():.0f} s of processor time")
 
 
 if __name__ == "__main__":

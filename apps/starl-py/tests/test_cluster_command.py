@@ -115,6 +115,50 @@ def test_a_killed_node_changes_nothing(command: str, cluster: Any, tmp_path: Pat
     assert rows[0].equals(rows[1])
 
 
+def tasks_of(node: Any) -> list[str]:
+    """The tasks that the processes of a node are at work on, as Ray titles them: `ray::NAME`."""
+    [raylet] = node.all_processes["raylet"]
+    titles = []
+    for status in Path("/proc").glob("[0-9]*/status"):
+        try:
+            if f"\nPPid:\t{raylet.process.pid}\n" in status.read_text():
+                titles.append(status.with_name("cmdline").read_text().split("\0")[0])
+        except OSError:
+            pass
+    return [title for title in titles if title.startswith("ray::") and "IDLE" not in title]
+
+
+@pytest.mark.parametrize("task", ["attempt", "shrink"])
+def test_a_node_killed_in_a_test_changes_nothing(command: str, cluster: Any, folders: tuple[Path, Path], task: str) -> None:
+    here, there = folders
+    arguments = ["test", "race", "broken.starl", "--profile", "calm,lossy,crashes", "--seeds", "40", "--json"]
+    alone = run(command, here, *arguments)
+    cluster.add_node(num_cpus=1)
+    cluster.wait_for_nodes()
+    killed: list[Any] = []
+    ended = threading.Event()
+
+    def kill() -> None:
+        while not killed and not ended.is_set():
+            killed.extend(node for node in cluster.worker_nodes if any(task in title for title in tasks_of(node)))
+        for node in killed[:1]:
+            cluster.remove_node(node, allow_graceful=False)
+
+    thread = threading.Thread(target=kill)
+    thread.start()
+    try:
+        shared = run(command, there, *arguments, cluster=cluster.address)
+    finally:
+        ended.set()
+        thread.join()
+    assert killed, "no node was at work"
+    assert (alone.returncode, shared.returncode) == (1, 1), shared.stderr
+    assert report(shared) == report(alone)
+    assert {path.name: path.read_bytes() for path in there.iterdir()} == {
+        path.name: path.read_bytes() for path in here.iterdir()
+    }
+
+
 def test_an_interrupted_sweep_keeps_its_rows_and_goes_on(command: str, cluster: Any, tmp_path: Path) -> None:
     sweep = [command, "sweep", "race", "--seeds", "200", "--out", "rows.csv", "--cluster", cluster.address, "--python", sys.executable]
     journal = tmp_path / "rows.csv.journal"

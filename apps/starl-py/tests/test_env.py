@@ -1,5 +1,7 @@
 """Environments for learning."""
 
+import copy
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -230,6 +232,58 @@ def test_bad_arguments_are_refused() -> None:
         env.step({"robot_0": np.zeros(3)})
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"robots": -1}, "robots: -1 is not a number of robots"),
+        ({"robots": 1.5}, "robots: 1.5 is not a number of robots"),
+        ({"obstacles": [1]}, "obstacles: 1 is not a `Circle` or a `Box`"),
+        ({"actions": "velocities"}, '"commands" or `Waypoints`'),
+        ({"lidar": 5}, "lidar: 5 is not a `Lidar`"),
+        ({"lidar": Lidar(-1)}, "lidar: -1 rays"),
+        ({"walls": (1, 2, 3)}, "is not left, bottom, right, top"),
+        ({"model": None}, "model: None is not the name"),
+        ({"reward": 5}, "reward: 5 is not an expression"),
+        ({"terminated": True}, "terminated: True is not an expression"),
+        ({"information": {"a": 1}}, r"information\['a'\]: 1 is not an expression"),
+        ({"measures": {"a": 1}}, r"measures\['a'\]: 1 is not an expression"),
+        ({"starts": 5}, "starts: 5 is not a place"),
+        ({"points": {"goal": 5}}, r"points\['goal'\]: 5 is not a place"),
+        ({"half": np.nan}, "half: nan is not a number"),
+        ({"max_steps": 0}, "max_steps: 0 is not a number"),
+    ],
+)
+def test_parts_of_the_wrong_type_are_refused(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(StarlError, match=message):
+        VectorEnv(tasks.Navigation(**changes), 1)
+
+
+@pytest.mark.parametrize("actions", [np.full((3, 2, 3), 1j), np.full((3, 2, 3), "a"), np.full((3, 2, 3), None)])
+def test_actions_are_numbers(actions: Any) -> None:
+    env = VectorEnv(tasks.Navigation(2), 3)
+    with pytest.raises(ValueError, match="environment 0 has not begun; call reset"):
+        env.step(np.zeros((3, 2, 3)))
+    env.reset(seed=np.int64(1))  # type: ignore[arg-type]
+    for numbers in (np.float16, np.int8, np.bool_):
+        env.step(np.ones((3, 2, 3), numbers))
+    with pytest.raises(ValueError, match=f"actions have the type {actions.dtype}; use numbers"):
+        env.step(actions)
+
+
+def test_wrong_uses_of_an_environment_are_named() -> None:
+    with pytest.raises(StarlError, match="is not a task"):
+        VectorEnv(tasks.Navigation, 1)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="0 threads"):
+        VectorEnv(tasks.Navigation(2), 1, threads=0)
+    env = ParallelEnv(tasks.Navigation(2))
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match=r"the action of robot_1 has the shape \(2,\); use \(3,\)"):
+        env.step({"robot_0": np.zeros(3), "robot_1": np.zeros(2)})
+    with pytest.raises(TypeError, match="pickle the task"):
+        copy.deepcopy(env)
+    assert pickle.loads(pickle.dumps(tasks.Pursuit(3))).settings == tasks.Pursuit(3).settings
+
+
 def test_transport_needs_enough_carriers() -> None:
     for carriers, moves in [(2, True), (3, False)]:
         env = VectorEnv(tasks.Transport(2, carriers=carriers), 1)
@@ -245,7 +299,7 @@ def test_transport_needs_enough_carriers() -> None:
 
 
 def test_a_touch_catches_the_evader() -> None:
-    task = tasks.Pursuit(2)
+    task = tasks.Pursuit(3)
     env = VectorEnv(task, 1)
     env.reset(seed=2)
     env.world.place(np.arange(1), np.array([[[-0.5, 0.0], [0.0, 1.8], [0.0, 0.0]]]))

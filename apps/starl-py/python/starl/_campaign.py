@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from operator import index
 from typing import Any
 
 from starl import _native
@@ -60,8 +61,11 @@ def test(
     """Runs a scenario under profiles of faults with many seeds, as `starl test` does, and makes the first `shrink` runs
     that go wrong smaller, trying up to `most_trials` scenarios for each. Threads, processes and cluster are as for
     `sweep`; the results do not depend on them."""
-    scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
-    chosen = range(1, seeds + 1) if isinstance(seeds, int) else seeds
+    scenario = Scenario._from(scenario)
+    chosen = seeds if isinstance(seeds, range) else range(1, _count("seeds", seeds) + 1)
+    if isinstance(profiles, str):
+        profiles = [profiles]
+    _count("shrink", shrink), _count("most_trials", most_trials)
     if chosen.step != 1 or not chosen or chosen[0] < 0:
         raise StarlError(f"{seeds}: give a range of seeds that follow each other, at least one")
     with scenario._opened() as (engine, opened):
@@ -101,6 +105,12 @@ def test(
             sizes = {key: about.get(key) for key in ("scenario", "before", "after")}
             failures.append(Failure(profile, seed, wrong, one["text"], one["digest"], **sizes))
     return CampaignResults(runs, failures)
+
+
+def _count(name: str, value: int) -> int:
+    if not hasattr(value, "__index__") or index(value) < 0:
+        raise StarlError(f"{name}: {value!r} is not a whole number from 0")
+    return index(value)
 
 
 def _wrong(finding: dict[str, str] | str | None) -> str | None:

@@ -34,6 +34,7 @@ class Program:
     warnings: list[Diagnostic] = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
+        _text(self.text, "a program")
         found = [Diagnostic._of(one) for one in request(_SHARED, "check", files=self._files())]
         errors = [one for one in found if one.severity == "error"]
         if errors:
@@ -73,7 +74,7 @@ class Scenario:
         self,
         example: str | None = None,
         *,
-        program: Program | RobotProgram | str | None = None,
+        program: Program | RobotProgram | str | Path | None = None,
         robots: str | None = None,
         faults: str | Path | None = None,
         seed: int | None = None,
@@ -96,7 +97,14 @@ class Scenario:
     ) -> Scenario:
         """The scenario of a text. `files` are others that it names; those that are not there are looked for on disk,
         from the folder of `path`."""
-        return cls._of({path: text, **(files or {})}, path, changes)
+        return cls._of({path: _text(text, "a scenario"), **(files or {})}, path, changes)
+
+    @classmethod
+    def _from(cls, given: Scenario | str) -> Scenario:
+        """The scenario, or the example of that name."""
+        if not isinstance(given, (Scenario, str)):
+            raise StarlError(f"{given!r} is not a scenario; give a `Scenario` or the name of an example")
+        return cls(given) if isinstance(given, str) else given
 
     @classmethod
     def _of(cls, files: dict[str, str], path: str, changes: Mapping[str, Any]) -> Scenario:
@@ -126,7 +134,7 @@ class Scenario:
     def _change(
         self,
         *,
-        program: Program | RobotProgram | str | None = None,
+        program: Program | RobotProgram | str | Path | None = None,
         robots: str | None = None,
         faults: str | Path | None = None,
         seed: int | None = None,
@@ -141,11 +149,18 @@ class Scenario:
             name = type(program).__name__
             self._programs = {name: program}
             options["program"] = name
+        elif isinstance(program, type) and issubclass(program, RobotProgram):
+            raise StarlError(f"program: give an object, `{program.__name__}(...)`, and not the class")
         elif program is not None:
+            if not isinstance(program, (str, Path)):
+                raise StarlError(f"program: {program!r} is not a program, a file, or an example's name")
+            program = str(program)
             if program.endswith(".starl") and program not in self._files and Path(program).exists():
                 self._files[program] = _read(program)
             options["program"] = program
         if robots is not None:
+            if not isinstance(robots, str):
+                raise StarlError(f'robots: {robots!r} is not a fleet; write it as "create=4" or "create=2,drone=2"')
             options["robots"] = robots
         if faults is not None:
             self._files[str(faults)] = _read(faults)
@@ -205,6 +220,17 @@ def _read(path: str | Path) -> str:
         raise StarlError(f"{path}:{line}: is not text in UTF-8; save it as that") from None
     except OSError as error:
         raise StarlError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def _text(text: Any, what: str) -> str:
+    if not isinstance(text, str):
+        raise StarlError(f"the text of {what} is a str, not {type(text).__name__}")
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        line = text[: error.start].count("\n") + 1
+        raise StarlError(f"the text of {what} is not Unicode in line {line}: {text[error.start]!a} is half a character") from None
+    return text
 
 
 def _leaves(name: str, value: Any) -> list[tuple[str, Any]]:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from starl._extras import needed
+
 if TYPE_CHECKING:
     import matplotlib.axes
 
@@ -34,10 +36,8 @@ def plot(
     poses: Table, names: list[str], world: dict[str, Any], ax: matplotlib.axes.Axes | None
 ) -> matplotlib.axes.Axes:
     """Draws the world from above, the robots' paths and where they end."""
-    import matplotlib.pyplot as plt
-
     if ax is None:
-        ax = plt.subplots(figsize=(6.4, 6.4), layout="constrained")[1]
+        ax = needed("matplotlib.pyplot", "plot").subplots(figsize=(6.4, 6.4), layout="constrained")[1]
     for one in world["obstacles"]:
         _draw(ax, one["obstacle"])
     for point in world["way_points"]:
@@ -51,7 +51,7 @@ def plot(
     ax.set_aspect("equal")
     ax.set_xlabel("x (m)")
     ax.set_ylabel("y (m)")
-    if 1 < len(names) <= 12:
+    if 1 < len(names) <= 12 and ax.get_legend_handles_labels()[0]:
         ax.legend(fontsize=7)
     return ax
 

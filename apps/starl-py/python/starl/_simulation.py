@@ -6,6 +6,7 @@ import base64
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from operator import index
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -88,9 +89,10 @@ class Simulation:
         seed: int | None = None,
         records: Iterable[str] | Literal["all"] = "all",
     ) -> None:
-        scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
+        scenario = Scenario._from(scenario)
         options = scenario._options if seed is None else {**scenario._options, "seed": str(seed)}
-        topics = None if records == "all" else [_topic(name) for name in records]
+        chosen = [records] if isinstance(records, str) else records
+        topics = None if records == "all" else [_topic(name) for name in chosen]
         self._engine = Engine(scenario._programs)
         self._adopt(request(self._engine, "open", files=scenario._files, options=options, topics=topics))
 
@@ -138,6 +140,8 @@ class Simulation:
 
     def step(self, steps: int = 1) -> Status:
         """Makes physics steps, also when the run is over."""
+        if steps < 0:
+            raise StarlError(f"steps: {steps} is less than 0")
         for _ in range(steps):
             self._status = self._ask("step")
         self._refresh()
@@ -146,6 +150,10 @@ class Simulation:
     def run(self, until: float | None = None, *, steps: int | None = None) -> Status:
         """Runs to the end, or to a time, or for so many steps at most. Other threads of Python run meanwhile, and Ctrl-C
         stops between two steps."""
+        if until is not None and not (isinstance(until, (float, int, np.number)) and until >= 0 and np.isfinite(until)):
+            raise StarlError(f"until: {until!r} is not a time; give seconds from 0, or nothing for the end of the run")
+        if steps is not None and index(steps) < 0:
+            raise StarlError(f"steps: {steps} is less than 0")
         made, slice = 0, 1
         while True:
             left = slice if steps is None else min(slice, steps - made)
@@ -234,7 +242,10 @@ class Simulation:
     def records(self, topic: str | None = None) -> Table:
         """What has happened so far. With a topic, such as "pose" or "action", its members are columns; without, all
         topics, each record with its content as JSON."""
-        return Table(self._engine.records(self._number, topic))
+        try:
+            return Table(self._engine.records(self._number, topic))
+        except ValueError as error:
+            raise StarlError(str(error)) from None
 
     def scenario(self) -> str:
         """The scenario with all that was applied, as the text of a file: run from the start, it goes as this run
@@ -257,8 +268,10 @@ class Simulation:
 
     def restore(self, snapshot: Snapshot) -> None:
         """Goes back, or forth, to a moment that was kept, exactly. It stays kept."""
+        if not isinstance(snapshot, Snapshot):
+            raise StarlError(f"{snapshot!r} is not a snapshot")
         if snapshot.simulation is not self:
-            raise ValueError("the snapshot is one of another simulation")
+            raise StarlError("the snapshot is one of another simulation")
         self._status = self._ask("restore", snapshot=snapshot.number)
         self._refresh()
 
@@ -274,10 +287,12 @@ class Simulation:
 
     def crash(self, *robots: int, at: float | None = None) -> None:
         """Robots crash: they lose all but stored variables, and stop."""
+        _named(robots)
         self._fault({"crash": list(robots)}, at)
 
     def restart(self, *robots: int, at: float | None = None) -> None:
         """Robots that are down start again."""
+        _named(robots)
         self._fault({"restart": list(robots)}, at)
 
     def partition(self, *groups: Sequence[int], at: float | None = None) -> None:
@@ -315,6 +330,11 @@ class Simulation:
         itself, from its start and steered as it was, and it can be steered there."""
         return Viewer(self.title, self._trace(), live=live, height=height)
 
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            "a simulation cannot be pickled or deeply copied: keep a moment with `snapshot()`, or send its scenario and seed"
+        )
+
     def _repr_html_(self) -> str:
         return self.show()._repr_html_()
 
@@ -322,14 +342,25 @@ class Simulation:
         return f"<starl.Simulation of {self.title!r} at {self.now:g} s{' (over)' if self.over else ''}>"
 
 
+def _named(robots: Sequence[int]) -> None:
+    if not robots:
+        raise StarlError("name at least one robot by its number")
+    for robot in robots:
+        if index(robot) < 0:
+            raise StarlError(f"there is no robot {robot}; robots are numbers from 0")
+
+
 def _topic(name: str) -> str:
     return name if name.startswith("/") else f"/starl/{name}"
 
 
 def _point(numbers: Sequence[float]) -> dict[str, float]:
-    x, y, z = (*map(float, numbers), 0.0, 0.0)[:3] if len(numbers) in (2, 3) else (float("nan"),) * 3
+    try:
+        x, y, z = (*map(float, numbers), 0.0, 0.0)[:3] if len(numbers) in (2, 3) else (float("nan"),) * 3
+    except (TypeError, ValueError):
+        x = y = z = float("nan")
     if not all(np.isfinite([x, y, z])):
-        raise ValueError(f"{numbers!r} is not a point; give x, y and z")
+        raise StarlError(f"{numbers!r} is not a point; give x, y and z")
     return {"x": x, "y": y, "z": z}
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from starl import _native
 from starl._errors import StarlError
+from starl._extras import needed
 from starl._files import Scenario, _leaves, _toml
 from starl._requests import request
 from starl._tables import Table
@@ -44,15 +45,13 @@ class SweepResults:
     def plot(self, metric: str = "goal", ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
         """Draws the share that reached the goal, or the mean of a metric, against the first field, a line for each value
         of the others, with bands for the confidence intervals."""
-        import matplotlib.pyplot as plt
-
         labels = {"goal": "share of runs that reached the goal", **dict(_native.Sweep.metrics())}
         if metric not in labels:
             raise StarlError(f"there is no metric {metric!r}; there are {', '.join(labels)}")
         if not self.axes:
             raise StarlError("there is no field to draw against; give one several values")
         if ax is None:
-            ax = plt.subplots(figsize=(6.4, 4.2), layout="constrained")[1]
+            ax = needed("matplotlib.pyplot", "plot").subplots(figsize=(6.4, 4.2), layout="constrained")[1]
         [across, *others] = self.axes
         lines: dict[tuple[str, ...], list[tuple[str, dict[str, Any]]]] = {}
         for one in self.summary():
@@ -113,7 +112,9 @@ def sweep(
     of this machine; or on a `cluster` of Ray, whose workers need the same wheel: "ray" is the one that this process is
     connected to, that RAY_ADDRESS names or that runs on this machine, "local" starts one, and other texts are addresses.
     Programs in Python share one lock on threads. The rows are the same anywhere."""
-    scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
+    scenario = Scenario._from(scenario)
+    if set is not None and not isinstance(set, Mapping):
+        raise StarlError(f"set: {set!r} is not a dictionary of fields and their values")
     axes = [_axis(*leaf) for name, values in (set or {}).items() for leaf in _leaves(name, values)]
     first = _native_call(_native.Sweep.first_values, axes)
     engine = scenario._engine()

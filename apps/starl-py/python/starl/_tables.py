@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import NDArray
 
 from starl import _native
+from starl._extras import needed
 
 if TYPE_CHECKING:
     import pandas
@@ -37,17 +38,20 @@ class Table:
     def _repr_html_(self) -> str | None:
         try:
             return self.to_polars()._repr_html_()
-        except ImportError:
+        except (ImportError, TypeError):
             return None
 
     def to_polars(self) -> polars.DataFrame:
-        """As a data frame of Polars."""
-        import polars
-
-        return polars.DataFrame(self)
+        """As a data frame of Polars, which needs version 1.3."""
+        package = needed("polars", "frames")
+        try:
+            frame: polars.DataFrame = package.DataFrame(self)
+        except TypeError:
+            raise TypeError(f"this needs Polars 1.3 or later, not {package.__version__}") from None
+        return frame
 
     def to_pandas(self) -> pandas.DataFrame:
-        """As a data frame of pandas, which needs pandas 2.2 with PyArrow, or pandas 3."""
+        """As a data frame of pandas, which needs version 2.0 with PyArrow 14, or 3."""
         import pandas
 
         frame: pandas.DataFrame

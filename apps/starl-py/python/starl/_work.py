@@ -95,8 +95,8 @@ class _Call:
 
 
 def _count(asked: int | None, what: str) -> int:
-    if asked is not None and asked < 1:
-        raise StarlError(f"{asked} {what}: give at least 1")
+    if asked is not None and (not hasattr(asked, "__index__") or asked < 1):
+        raise StarlError(f"{asked!r} {what}: give at least 1")
     return asked or os.cpu_count() or 1
 
 
@@ -245,6 +245,8 @@ def run_all(
     if len(given) > 1:
         raise StarlError(f"{' and '.join(given)}: give one of them")
     if cluster is not None:
+        if not isinstance(cluster, str):
+            raise StarlError(f'cluster: {cluster!r} is not an address; give "ray", "local" or "ray://HOST:PORT"')
         return on_ray(cluster, content(), programs, worker, numbers)
     if processes is not None:
         return on_processes(Plan.of(content(), programs, pickle.dumps), worker, numbers, processes)

@@ -5,6 +5,11 @@ to a learner. Robots move, collide and measure as in the simulator. Needs the pa
 `pip install starl[env]`.
 """
 
+from starl._extras import needed
+
+for _package in ("gymnasium", "pettingzoo"):
+    needed(_package, "env")
+
 from starl.env import tasks
 from starl.env._parallel import ParallelEnv
 from starl.env._places import Opposite, Places, Ring, Scatter

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from starl._errors import StarlError
 from starl.env._judge import Judge
+from starl.env._places import Opposite, Ring, Scatter
 from starl.env._quantities import parts
 from starl.env._task import Task
 from starl.env._world import Floats, Ints, World
@@ -23,12 +25,11 @@ class Episodes:
     """A task in a batch of environments."""
 
     def __init__(self, task: Task, environments: int, threads: int = 1) -> None:
+        _check(task)
         self.task = task
         self.world = World(task.settings, environments, threads)
         self._is_seeded = np.zeros(environments, np.bool_)
-        for part in ("observe", "reward"):
-            if not hasattr(task, part):
-                raise StarlError(f"{type(task).__name__}.{part} is missing: set it, or write a method")
+        self._is_reset = np.zeros(environments, np.bool_)
         self._judge = Judge(task, self.world)
         task.begin(self.world)
         if callable(task.observe):
@@ -54,6 +55,7 @@ class Episodes:
             if seed is None and not self._is_seeded[env]:
                 seed = int(np.random.SeedSequence().generate_state(1, np.uint64)[0])
             if seed is not None:
+                seed = index(seed)
                 if not 0 <= seed < 2**64:
                     raise ValueError(f"the seed {seed} is not in 0 to 2**64 - 1")
                 self.world.seed(np.array([env]), np.array([seed], np.uint64))
@@ -64,6 +66,7 @@ class Episodes:
         if len(envs):
             self.task.reset(self.world, envs)
             self._judge.begin(envs)
+            self._is_reset[envs] = True
 
     def observe(self) -> Observations:
         """Returns what robots see, in a new array."""
@@ -80,6 +83,8 @@ class Episodes:
 
     def step(self, actions: NDArray[Any]) -> tuple[Floats, Flags, Flags]:
         """Rewards (E, N), and which environments are terminated and truncated."""
+        if not self._is_reset.all():
+            raise ValueError(f"environment {int(self._is_reset.argmin())} has not begun; call reset")
         task, world = self.task, self.world
         world.step(actions)
         task.advance(world)
@@ -93,3 +98,27 @@ class Episodes:
         """The task's measures for `infos`: arrays (E, ...), which are overwritten next time."""
         information = self.task.information
         return information(self.world) if callable(information) else self._judge.information
+
+
+def _check(task: Any) -> None:
+    """Refuses parts of the wrong type, which would count as missing."""
+    if not isinstance(task, Task):
+        raise StarlError(f"{task!r} is not a task; give an object of a subclass of `Task`")
+    for part in ("observe", "reward"):
+        if not hasattr(task, part):
+            raise StarlError(f"{type(task).__name__}.{part} is missing: set it, or write a method")
+    texts = {"reward": task.reward, **{f"measures[{name!r}]": text for name, text in task.measures.items()}}
+    if task.terminated is not None:
+        texts["terminated"] = task.terminated
+    if task.information is not None and not callable(task.information):
+        texts |= {f"information[{name!r}]": text for name, text in task.information.items()}
+    for part, text in texts.items():
+        if not isinstance(text, str) and (not callable(text) or part.startswith("measures")):
+            raise StarlError(f"{part}: {text!r} is not an expression; write it as a text")
+    for part, place in {"starts": task.starts, **{f"points[{name!r}]": place for name, place in task.points.items()}}.items():
+        if not isinstance(place, (Scatter, Ring, Opposite)):
+            raise StarlError(f"{part}: {place!r} is not a place; use `Scatter`, `Ring` or `Opposite`")
+    for part in ("half", "max_steps"):
+        number = getattr(task, part)
+        if not isinstance(number, (int, float, np.number)) or not 0 < number < np.inf:
+            raise StarlError(f"{part}: {number!r} is not a number greater than 0")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from types import EllipsisType
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from starl import _native
 from starl._errors import Diagnostic, StarlError
+from starl.env._settings import each
 from starl.env._task import Task
 from starl.env._world import Floats, Ints, World
 
@@ -31,7 +33,10 @@ class Judge:
             {name: 2 if kind == "Point" else 1 for name, kind, _ in columns},
             {name: values for name, _, values in constants},
         )
-        information = {} if callable(task.information) else dict(task.information)
+        if task.information is None:
+            information = {name: name for name, kind in map(_typed, task.measures) if kind != "Point"}
+        else:
+            information = {} if callable(task.information) else dict(task.information)
         reward, terminated = (part if isinstance(part, str) else None for part in (task.reward, task.terminated))
         try:
             self._native = _native.Judge(
@@ -67,11 +72,14 @@ class Judge:
         return rewards
 
 
-def _constant(name: str, value: float | Sequence[float], robots: int) -> tuple[str, list[float]]:
-    values = np.broadcast_to(np.asarray(value), (robots,)) if np.ndim(value) == 0 else np.asarray(value)
-    if values.shape != (robots,):
-        raise StarlError(f"values: `{name}` has {len(values)} numbers for {robots} robots; give one, or one each")
-    return "Bool" if values.dtype == np.bool_ else "Float", [float(one) for one in values]
+def _constant(
+    name: str, value: float | Sequence[float | EllipsisType], robots: int
+) -> tuple[str, list[float]]:
+    given = [value.item(), ...] if isinstance(value, np.generic) else value
+    items = each(f"values: {name}", [given, ...] if isinstance(given, (bool, int, float)) else list(given), robots)
+    if not all(isinstance(item, (bool, int, float, np.bool_, np.number)) for item in items):
+        raise StarlError(f"values: {name}: {value!r} is not a number or a Boolean, or a list of them")
+    return "Bool" if all(isinstance(item, (bool, np.bool_)) for item in items) else "Float", [float(item) for item in items]
 
 
 def _typed(name: str) -> tuple[str, str]:

@@ -59,6 +59,10 @@ class ParallelEnv(PettingZooParallelEnv):  # type: ignore[misc]
         missing = [agent for agent in self.agents if agent not in actions]
         if missing:
             raise ValueError(f"there is no action for {', '.join(missing)}")
+        for agent in self.agents:
+            if np.shape(actions[agent]) != self.action_spaces[agent].shape:
+                shape = np.shape(actions[agent])
+                raise ValueError(f"the action of {agent} has the shape {shape}; use {self.action_spaces[agent].shape}")
         rows = np.stack([np.asarray(actions[agent]) for agent in self.agents])
         rewards, terminated, truncated = self._episodes.step(rows[None])
         agents, facts = self.agents, self._episodes.information()

@@ -49,7 +49,7 @@ def _part(world: World, name: str) -> Part:
         case [start, "to", end]:
             return _way(_point(world, name, start), _point(world, name, end))
         case ["every", own] if own not in _COMPUTED:
-            each = _quantity(world, own)
+            each = quantity(world, own)
             width = each.shape[2] * robots
             return Part(width, lambda out: _copy(out, each.reshape(environments, 1, width)))
         case ["heading"]:
@@ -59,7 +59,7 @@ def _part(world: World, name: str) -> Part:
         case ["heard"]:
             return Part(world.messages.shape[3], lambda out: _copy(out, _heard(world)))
         case [own]:
-            values = _quantity(world, own)
+            values = quantity(world, own)
             return Part(values.shape[2], lambda out: _copy(out, values))
     raise StarlError(
         f'observe: `{name}` is not a name of a quantity, "to POINT", "POINT to POINT", "every NAME" or "to every POINT"'
@@ -84,13 +84,13 @@ def _direction(world: World, out: Numbers) -> None:
 
 
 def _point(world: World, name: str, point: str) -> Numbers:
-    quantity = _quantity(world, point)
-    if quantity.shape[2] != 2:
+    found = quantity(world, point)
+    if found.shape[2] != 2:
         raise StarlError(f"observe: `{name}`: `{point}` is no point in the plane")
-    return quantity
+    return found
 
 
-def _quantity(world: World, name: str) -> Numbers:
+def quantity(world: World, name: str, part: str = "observe") -> Numbers:
     """The array (E, N, k) that holds a quantity."""
     given: dict[str, Numbers] = {
         "position": world.positions,
@@ -104,7 +104,7 @@ def _quantity(world: World, name: str) -> Numbers:
         names = [*given, *_COMPUTED]
         close = difflib.get_close_matches(name, names, 1)
         hint = f"; did you mean `{close[0]}`?" if close else f"; use one of {', '.join(names)}"
-        raise StarlError(f"observe: there is no quantity `{name}`{hint}")
+        raise StarlError(f"{part}: there is no quantity `{name}`{hint}")
     return given[name]
 
 

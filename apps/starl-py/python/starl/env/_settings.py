@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from types import EllipsisType, NoneType
+from typing import Any, Literal, TypeVar
+
+import numpy as np
+
+from starl._errors import StarlError
+
+Item = TypeVar("Item")
 
 
 @dataclass(frozen=True)
@@ -65,9 +72,12 @@ class Settings:
     #: How many robots an environment has.
     robots: int
     #: The model of all robots, or of each: "holonomic", "create", "differential", "car" or "drone".
-    model: str | Sequence[str] = "holonomic"
-    #: Parameters of the model that are not at their defaults, by name; with several models, a mapping for each.
-    parameters: Mapping[str, float] | Sequence[Mapping[str, float]] = field(default_factory=dict)
+    model: str | Sequence[str | EllipsisType] = "holonomic"
+    #: Parameters of the model that are not at their defaults, by name: a number for all robots, or one each; with several
+    #: models, a mapping for each.
+    parameters: (
+        Mapping[str, float | Sequence[float | EllipsisType]] | Sequence[Mapping[str, float] | EllipsisType]
+    ) = field(default_factory=dict)
     #: Seconds.
     physics_step: float = 0.05
     #: How many physics steps an action lasts.
@@ -82,14 +92,64 @@ class Settings:
     #: "commands": the controls of the model, each from -1 to 1.
     actions: Waypoints | Literal["commands"] = "commands"
 
+    def check(self) -> None:
+        """Refuses values of the wrong type; the native module refuses numbers that are out of their range."""
+        if not isinstance(self.robots, (int, np.integer)) or self.robots < 1:
+            raise StarlError(f"robots: {self.robots!r} is not a number of robots; give a whole number from 1")
+        kinds: list[tuple[str, Any, type | tuple[type, ...], str]] = [
+            ("lidar", self.lidar, (Lidar, NoneType), "a `Lidar`"),
+            ("radio", self.radio, (Radio, NoneType), "a `Radio`"),
+            ("model", self.model, (str, Sequence), "the name of a model, or a list of them"),
+            ("parameters", self.parameters, (Mapping, Sequence), "a dictionary, or a list of them"),
+            *(("obstacles", one, (Circle, Box), "a `Circle` or a `Box`") for one in self.obstacles),
+        ]
+        if self.actions != "commands":
+            kinds.append(("actions", self.actions, Waypoints, '"commands" or `Waypoints`'))
+        for name, value, kind, what in kinds:
+            if not isinstance(value, kind):
+                raise StarlError(f"{name}: {value!r} is not {what}")
+        if self.lidar and not 0 < self.lidar.rays < 2**16:
+            raise StarlError(f"lidar: {self.lidar.rays} rays; use 1 to 65535")
+        if self.walls is not None and np.shape(self.walls) != (4,):
+            raise StarlError(f"walls: {self.walls!r} is not left, bottom, right, top")
+
     def models(self) -> list[tuple[str, list[tuple[str, float]]]]:
         """The model of each robot with its parameters."""
-        names = [self.model] * self.robots if isinstance(self.model, str) else list(self.model)
+        model: Sequence[str | EllipsisType] = [self.model, ...] if isinstance(self.model, str) else self.model
+        names = each("model", model, self.robots)
         parameters = self.parameters
-        each = [parameters] * self.robots if isinstance(parameters, Mapping) else list(parameters)
-        for field_name, values in (("model", names), ("parameters", each)):
-            if len(values) != self.robots:
-                raise ValueError(f"{field_name}: {len(values)} values for {self.robots} robots; give one, or one each")
+        if isinstance(parameters, Mapping):
+            columns = {
+                name: each(f"parameters: {name}", value if isinstance(value, Sequence) else [value, ...], self.robots)
+                for name, value in parameters.items()
+            }
+            rows: list[Mapping[str, Any]] = [
+                {name: column[robot] for name, column in columns.items()} for robot in range(self.robots)
+            ]
+        else:
+            rows = each("parameters", parameters, self.robots)
         return [
-            (name, [(key, float(value)) for key, value in own.items()]) for name, own in zip(names, each, strict=True)
+            (name, [(key, _number(key, value)) for key, value in own.items()]) for name, own in zip(names, rows, strict=True)
         ]
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise StarlError(f"parameters: {name}: {value!r} is not a number") from None
+
+
+def each(what: str, items: Sequence[Item | EllipsisType], robots: int) -> list[Item]:
+    """An item for each robot. `...` repeats the item before it until there are enough."""
+    rest = [place for place, item in enumerate(items) if item is ...]
+    if rest:
+        [place, *others] = rest
+        missing = robots - len(items) + 1
+        if others or place == 0 or missing < -1:
+            raise StarlError(f"{what}: `...` stands once, behind a value, and there are at most {robots} values")
+        # With fewer robots than values, there is none of the repeated one.
+        items = [*items[: place + min(missing, 0)], *[items[place - 1]] * missing, *items[place + 1 :]]
+    if len(items) != robots:
+        raise StarlError(f"{what}: {len(items)} values for {robots} robots; give one, or one each")
+    return [item for item in items if not isinstance(item, EllipsisType)]

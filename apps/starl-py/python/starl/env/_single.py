@@ -16,7 +16,7 @@ class Env(gymnasium.Env[Observations, NDArray[Any]]):
     """One robot: observations (k,), actions (m,). For tasks with several robots use `ParallelEnv` or `VectorEnv`."""
 
     def __init__(self, task: Task) -> None:
-        if task.settings.robots != 1:
+        if isinstance(task, Task) and task.settings.robots != 1:
             raise ValueError(f"the task has {task.settings.robots} robots; use ParallelEnv or VectorEnv")
         self._episodes = Episodes(task, 1)
         self.task = task

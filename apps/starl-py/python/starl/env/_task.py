@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 from collections.abc import Callable, Mapping, Sequence
+from types import EllipsisType
 from typing import Any
 
 from numpy.typing import NDArray
@@ -36,7 +37,7 @@ class Task:
     #: Points that expressions and observations may name: one for each robot, or shared by all robots of an environment.
     points: Mapping[str, Places] = {}
     #: Numbers that expressions and observations may name, one for all robots or one each.
-    values: Mapping[str, float | Sequence[float]] = {}
+    values: Mapping[str, float | Sequence[float | EllipsisType]] = {}
     #: Quantities that are computed after each action, by name: a Float, or `"name: Bool"` and `"name: Point"`.
     measures: Mapping[str, str] = {}
     #: Names of quantities; or a method that returns arrays (E, N, k), which are joined, and changes nothing.
@@ -45,8 +46,8 @@ class Task:
     reward: str | Callable[..., Floats]
     #: A Bool, and the episode ends when it is true of all robots; or a method that returns (E,), called after `reward`.
     terminated: str | Callable[..., NDArray[Any]] | None = None
-    #: Bools or Floats by name, averaged over robots; or a method that returns arrays (E, ...) for `infos`.
-    information: Mapping[str, str] | Callable[..., dict[str, NDArray[Any]]] = {}
+    #: Bools or Floats by name, averaged over robots; or a method that returns arrays (E, ...) for `infos`. None: the measures.
+    information: Mapping[str, str] | Callable[..., dict[str, NDArray[Any]]] | None = None
 
     def __init__(self, robots: int | None = None, **changes: Any) -> None:
         values, settings = dict(self.values), {} if robots is None else {"robots": robots}

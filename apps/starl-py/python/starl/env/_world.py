@@ -25,6 +25,9 @@ class World:
     def __init__(self, settings: Settings, environments: int, threads: int = 1) -> None:
         if environments < 1:
             raise ValueError(f"{environments} environments; use at least 1")
+        if threads < 1:
+            raise ValueError(f"{threads} threads; use at least 1")
+        settings.check()
         self.settings = settings
         #: The number of environments.
         self.environments = environments
@@ -77,6 +80,17 @@ class World:
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         self.quantities[name][...] = values
 
+    def mean(self, name: str, *, where: str, least: str | float = 1) -> Floats:
+        """The mean of a quantity over the robots of each environment of which a Bool is true: (E, 1, k). It is 0 where
+        there are fewer than `least` of them, a number or the name of a value."""
+        from starl.env._quantities import quantity
+
+        chosen = quantity(self, where, "where")
+        needed = quantity(self, least, "least")[:, :1] if isinstance(least, str) else least
+        count = chosen.sum(axis=1, keepdims=True)
+        total: Floats = (quantity(self, name, "mean") * chosen).sum(axis=1, keepdims=True)
+        return np.where(count >= np.maximum(needed, 1), total / np.maximum(count, 1), 0.0)
+
     @property
     def action_numbers(self) -> int:
         """How many numbers a robot's action has, with its message."""
@@ -104,6 +118,8 @@ class World:
         if actions.shape != (self.environments, self.robots, self.action_numbers):
             expected = (self.environments, self.robots, self.action_numbers)
             raise ValueError(f"actions have the shape {actions.shape}; use {expected}")
+        if actions.dtype.kind not in "biuf":
+            raise ValueError(f"actions have the type {actions.dtype}; use numbers")
         self._actions[...] = actions[..., :numbers]
         self._sent[...] = actions[..., numbers:]
         self._batch.step(self._actions, self._sent, *self._outputs)
@@ -156,6 +172,9 @@ class World:
 
     def _show(self, envs: Ints) -> None:
         self._batch.show(envs, *self._outputs)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("environments cannot be pickled or deeply copied: pickle the task, and make another environment of it")
 
     def __repr__(self) -> str:
         return f"<starl.env.World of {self.environments} environments with {self.robots} robots>"

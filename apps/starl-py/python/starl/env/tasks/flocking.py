@@ -14,4 +14,3 @@ class Flocking(Task):
     measures = {"flock_speed": "distance(mean_velocity, Point(0.0, 0.0))"}
     observe = "velocity", "heard", "lidar"
     reward = "flock_speed / top_speed - max(nearest - spacing, 0.0) - (if touched then 1.0 else 0.0)"
-    information = {"flock_speed": "flock_speed"}

@@ -1,7 +1,5 @@
 """Transport: a thing too heavy for one robot is to be brought to a place."""
 
-import numpy as np
-
 from starl.env._places import Scatter
 from starl.env._settings import Settings
 from starl.env._task import Task
@@ -21,9 +19,6 @@ class Transport(Task):
     observe = "position", "velocity", "to thing", "thing to goal", "holds"
     reward = "previous.left - left + 0.1 * (previous.way - way)"
     terminated = "left < 0.1"
-    information = {"left": "left"}
 
     def advance(self, world: World) -> None:
-        count = world["holds"].sum(axis=1, keepdims=True)
-        mean = (world.velocities[..., :2] * world["holds"]).sum(axis=1, keepdims=True) / np.maximum(count, 1)
-        world["thing"] += np.where(count >= world["carriers"][:, :1], mean * world.seconds, 0.0)
+        world["thing"] += world.seconds * world.mean("velocity", where="holds", least="carriers")
