@@ -28,6 +28,7 @@ const SUMMARY = "/starl/summary";
 const FILES = "starl/files/";
 /** Seconds between two frames. */
 const SAMPLE = 0.1;
+const SAMPLE_NS = 100_000_000;
 /** Real time between two updates while it plays, and while it is read, ms. */
 const UPDATE_EVERY = 16;
 const READ_FOR = 30;
@@ -191,7 +192,7 @@ export class Playback {
   }
 
   async #readAll(): Promise<void> {
-    let due = SAMPLE;
+    let due = 1;
     let heard = performance.now();
     const wanted = new Set([POSE, ESTIMATE, SUMMARY, ...RECORDED]);
     const decoder = new TextDecoder();
@@ -202,7 +203,8 @@ export class Playback {
       const topic = record.type === "Message" ? topics.get(record.channelId) : undefined;
       if (record.type !== "Message" || !topic || !wanted.has(topic)) continue;
       const time = Number(record.logTime) / 1e9;
-      if (time >= due) due = this.#framesBefore(time, due);
+      const sample = Math.floor(Number(record.logTime) / SAMPLE_NS);
+      if (sample >= due) due = this.#framesBefore(sample, due);
       this.#take(topic, Number(record.logTime), this.#message(decoder.decode(record.data)));
       this.#known = Math.max(this.#known, time);
       if (performance.now() - heard < READ_FOR) continue;
@@ -212,12 +214,11 @@ export class Playback {
     }
   }
 
-  /** Adds the frames that are due before `time`; returns when the next one is. While nothing is recorded two are enough. */
-  #framesBefore(time: number, due: number): number {
-    this.#frame(due - SAMPLE);
-    const next = (Math.floor(time / SAMPLE) + 1) * SAMPLE;
-    if (next > due + 1.5 * SAMPLE) this.#frame(next - 2 * SAMPLE);
-    return next;
+  /** Adds the frames before a sample, and returns the number of the next. While nothing is recorded two are enough. */
+  #framesBefore(sample: number, due: number): number {
+    this.#frame((due - 1) * SAMPLE);
+    if (sample > due) this.#frame((sample - 1) * SAMPLE);
+    return sample + 1;
   }
 
   /** Throws if it is not about a robot of the fleet. */
