@@ -8,7 +8,7 @@ from PIL import Image
 HERE = Path(__file__).parent
 FRAME_MS = 110
 LAST_MS = 1500
-COLORS = 64
+COLORS = 96
 
 frames = [Image.open(path).convert("RGB") for path in sorted((Path(tempfile.gettempdir()) / "starl-frames").glob("*.png"))]
 # One palette, of a frame in which every robot has moved, so that nothing flickers.

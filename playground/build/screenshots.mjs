@@ -30,6 +30,7 @@ async function open(example, options) {
   await page.locator(".transport .outcome.reached").waitFor({ timeout: 120_000 });
   await page.getByLabel("Speed of playback").selectOption("1");
   await page.getByLabel("To the start").click();
+  await page.locator(".clock", { hasText: /^0\.00 s/ }).waitFor();
   return visited;
 }
 

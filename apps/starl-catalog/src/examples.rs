@@ -222,6 +222,14 @@ pub const EXAMPLES: &[Example] = &[
     ),
 ];
 
+/// The content of a file of an example that is not text. Projects of the page hold texts only, so that their programs
+/// find it here.
+pub fn model(path: &str) -> Option<&'static [u8]> {
+    let mut files = EXAMPLES.iter().flat_map(|example| example.files);
+    let found = files.find(|(name, content)| *name == path && str::from_utf8(content).is_err());
+    found.map(|(_, content)| *content)
+}
+
 impl Example {
     /// The programs in the StarL language that it brings, by path.
     pub fn programs(&self) -> impl Iterator<Item = &'static str> {

@@ -29,6 +29,11 @@ test("the module can be loaded from a URL, from bytes and compiled", async () =>
   }
 });
 
+test("every example opens from the files that it has", async () => {
+  const starl = await load(module);
+  for (const { files, scenario } of starl.examples()) starl.open(files, { scenario }).close();
+});
+
 test("simulations live side by side and end alike", async () => {
   const starl = await load(module);
   const [one, other] = [1, 2].map(() => starl.open({}, { scenario: "race", seed: 3n }));

@@ -56,7 +56,7 @@ export class Client {
   #start(): Worker {
     const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) =>
-      "needs" in data ? give(worker) : this.#hear(data);
+      "needs" in data ? give(worker, data.needs) : this.#hear(data);
     worker.onerror = (event) => this.onFailure(event.message || "the simulator could not be loaded");
     return worker;
   }
@@ -72,8 +72,9 @@ export class Client {
   }
 }
 
-async function give(worker: Worker): Promise<void> {
+async function give(worker: Worker, needed: "module" | "hearing"): Promise<void> {
   const say = (message: ToWorker) => worker.postMessage(message);
+  if (needed === "hearing") return say({ heard: true });
   try {
     say({ module: await simulator() });
   } catch (error) {

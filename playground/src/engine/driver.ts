@@ -298,6 +298,8 @@ export class Driver {
       frame,
       frames: joined,
       records,
+      window: null,
+      rates: null,
       values,
       cut,
       states,

@@ -57,3 +57,8 @@ export const RECORDED = [
   "thing",
   "intervention",
 ].map((topic) => `/starl/${topic}`);
+
+const FREQUENT = new Set(["/starl/sent", "/starl/delivered", "/starl/dropped", "/starl/action"]);
+
+/** Datagrams and actions: a long run has millions of them. */
+export const isFrequent = (topic: string): boolean => FREQUENT.has(topic);

@@ -41,18 +41,17 @@ export async function* arriving(url: string): AsyncGenerator<McapTypes.TypedMcap
   }
 }
 
-/** The time of the last message by the index at the end of the file, s; null if there is no index. */
-export async function lastTime(file: Readable): Promise<number | null> {
+/** A reader that uses the index at the end of the file; null if there is none. */
+export async function indexed(file: Readable): Promise<McapIndexedReader | null> {
   const readable: Readable = {
     size: () => file.size(),
     read: (offset, length) => {
-      if (length > LONGEST) throw new Error("the index is longer than 256 MB");
+      if (length > LONGEST) throw new Error("a part of it is longer than 256 MB");
       return file.read(offset, length);
     },
   };
   try {
-    const reader = await McapIndexedReader.Initialize({ readable });
-    return reader.statistics ? Number(reader.statistics.messageEndTime) / 1e9 : null;
+    return await McapIndexedReader.Initialize({ readable });
   } catch {
     return null;
   }

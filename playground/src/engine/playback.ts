@@ -4,9 +4,10 @@
 
 import type { McapTypes } from "@mcap/core";
 import type { Recorded } from "../../../apps/starl-wasm/starl.d.mts";
+import { Rates } from "../plots/rates.ts";
 import { firstWhere } from "../run/search.ts";
-import { RECORDED } from "./engine.ts";
-import { arriving, LocalFile, lastTime, type Readable, records, ServedFile } from "./mcap.ts";
+import { isFrequent, RECORDED } from "./engine.ts";
+import { arriving, indexed, LocalFile, type Readable, records, ServedFile } from "./mcap.ts";
 import { type RecordedWorld, readWorld } from "./recorded-world.ts";
 import { MOST_ROBOTS, Refused, refuseTooMany } from "./refused.ts";
 import {
@@ -20,6 +21,7 @@ import {
   type TraceRecord,
   type Update,
 } from "./types.ts";
+import { Window } from "./window.ts";
 
 const POSE = "/starl/pose";
 const ESTIMATE = "/starl/estimate";
@@ -28,9 +30,12 @@ const SUMMARY = "/starl/summary";
 const FILES = "starl/files/";
 /** Seconds between two frames. */
 const SAMPLE = 0.1;
-/** Real time between two updates while it plays, and while it is read, ms. */
+const SAMPLE_NS = 100_000_000;
+/** Real time between two updates while it plays, and while it is read; the page is heard in between. ms. */
 const UPDATE_EVERY = 16;
+const REPORT_EVERY = 120;
 const READ_FOR = 30;
+const RATES_EVERY = 500;
 /** The latest moment of a fleet that runs is shown from this far before it on, s. */
 const NEAR = 0.5;
 
@@ -40,7 +45,14 @@ interface Summary {
   end_ns: number;
 }
 
-type Post = (update: Update, transfer: Transferable[]) => void;
+/** Where what is read goes. */
+interface Page {
+  post(update: Update, transfer: Transferable[]): void;
+  /** Resolves when the page has taken all updates but the last few, so that they do not pile up. */
+  heard(): Promise<void>;
+  /** Is called if the trace turns out to be damaged. */
+  fail(message: string): void;
+}
 
 export class Playback {
   readonly opened: Opened;
@@ -68,14 +80,20 @@ export class Playback {
   #fleet: Member[];
   #hasJoined = false;
   #frames: number[] = [];
-  #fresh: TraceRecord[] = [];
+  #fresh: Update["records"] = [];
+  #placed: Update["window"] = null;
+  #rates = new Rates();
+  #ratesSaid = 0;
+  /** Whether the window cannot be moved any more. */
+  #broken = false;
+  #pace = 0;
 
   private constructor(
     private readonly trace: AsyncGenerator<McapTypes.TypedMcapRecord>,
     private readonly start: Beginning,
     opened: Opened,
-    private readonly post: Post,
-    private readonly fail: (message: string) => void,
+    private readonly page: Page,
+    private readonly window: Window,
     private readonly grows: boolean,
   ) {
     this.opened = opened;
@@ -84,11 +102,11 @@ export class Playback {
     this.#conditions = new Float64Array(opened.fleet.length * POSE_NUMBERS);
   }
 
-  /** `fail` is called if the trace turns out to be damaged. */
+  /** The window is for tests: how many of the frequent records the page has at once. */
   static async start(
     source: Source & { kind: "trace" | "fleet" },
-    post: Post,
-    fail: (message: string) => void,
+    page: Page,
+    windowSize?: number,
   ): Promise<Playback> {
     const grows = source.kind === "fleet";
     const file = grows ? null : await opened(source.from);
@@ -100,9 +118,10 @@ export class Playback {
     const world = text === undefined ? null : readWorld(text);
     if (!start.about || !world) throw new Refused(`${source.name}: this file is no trace of StarL`);
     refuseTooMany(world.robots.length);
-    const end = file && (await lastTime(file));
-    const about = describe(source.name, start.about, world, end ?? 0);
-    const playback = new Playback(trace, start, about, post, fail, grows);
+    const index = file && (await indexed(file));
+    const end = Number(index?.statistics?.messageEndTime ?? 0) / 1e9;
+    const about = describe(source.name, start.about, world, end);
+    const playback = new Playback(trace, start, about, page, new Window(index, windowSize), grows);
     playback.whole = playback.#load();
     return playback;
   }
@@ -110,6 +129,7 @@ export class Playback {
   play(speed: number): void {
     const playing = Symbol("playing");
     this.#playing = playing;
+    this.#pace = speed;
     void this.#play(speed, playing);
   }
 
@@ -124,7 +144,7 @@ export class Playback {
       this.#now = Math.min(this.#known, this.#now + ((real - last) / 1000) * Math.min(speed, 1000));
       if (this.#following) this.#now = this.#known;
       last = real;
-      this.#update(speed);
+      this.#update();
     }
     this.#playing = null;
     this.#update();
@@ -185,14 +205,14 @@ export class Playback {
     this.#update();
     if (damage === null) return;
     const reason = damage instanceof Error ? damage.message : String(damage);
-    this.fail(
+    this.page.fail(
       `${this.opened.title}: the trace is damaged after ${this.#known.toFixed(3)} s (${reason}). It is shown up to there.`,
     );
   }
 
   async #readAll(): Promise<void> {
-    let due = SAMPLE;
-    let heard = performance.now();
+    let due = 1;
+    let [heard, reported] = [performance.now(), 0];
     const wanted = new Set([POSE, ESTIMATE, SUMMARY, ...RECORDED]);
     const decoder = new TextDecoder();
     const { topics } = this.start;
@@ -202,22 +222,26 @@ export class Playback {
       const topic = record.type === "Message" ? topics.get(record.channelId) : undefined;
       if (record.type !== "Message" || !topic || !wanted.has(topic)) continue;
       const time = Number(record.logTime) / 1e9;
-      if (time >= due) due = this.#framesBefore(time, due);
+      const sample = Math.floor(Number(record.logTime) / SAMPLE_NS);
+      if (sample >= due) due = this.#framesBefore(sample, due);
       this.#take(topic, Number(record.logTime), this.#message(decoder.decode(record.data)));
       this.#known = Math.max(this.#known, time);
       if (performance.now() - heard < READ_FOR) continue;
-      this.#update();
+      if (performance.now() - reported > REPORT_EVERY) {
+        this.#update();
+        await this.page.heard();
+        reported = performance.now();
+      }
       await new Promise((resolve) => setTimeout(resolve));
       heard = performance.now();
     }
   }
 
-  /** Adds the frames that are due before `time`; returns when the next one is. While nothing is recorded two are enough. */
-  #framesBefore(time: number, due: number): number {
-    this.#frame(due - SAMPLE);
-    const next = (Math.floor(time / SAMPLE) + 1) * SAMPLE;
-    if (next > due + 1.5 * SAMPLE) this.#frame(next - 2 * SAMPLE);
-    return next;
+  /** Adds the frames before a sample, and returns the number of the next. While nothing is recorded two are enough. */
+  #framesBefore(sample: number, due: number): number {
+    this.#frame((due - 1) * SAMPLE);
+    if (sample > due) this.#frame((sample - 1) * SAMPLE);
+    return sample + 1;
   }
 
   /** Throws if it is not about a robot of the fleet. */
@@ -282,8 +306,10 @@ export class Playback {
         this.#collisions++;
         break;
     }
+    const place = this.#times.length;
     this.#times.push(time_ns / 1e9);
-    this.#fresh.push({ time_ns, topic, message });
+    this.#rates.count(topic, time_ns / 1e9);
+    if (this.window.takes(place, topic)) this.#fresh.push({ time_ns, topic, message, place });
   }
 
   #steer(time_ns: number, intervention: Intervention): void {
@@ -320,10 +346,40 @@ export class Playback {
     this.#frames.push(time, this.#fleet.length, ...this.#conditions);
   }
 
-  #update(pace = 0): void {
+  /** Moves the window after the moment shown. */
+  async #moveWindow(): Promise<void> {
+    const records: NonNullable<Update["window"]>["records"] = [];
+    const decoder = new TextDecoder();
+    const { topics } = this.start;
+    try {
+      const place = position(this.#times, this.#now);
+      const span = await this.window.move(
+        place,
+        this.#times,
+        RECORDED,
+        (place, { channelId, logTime, data }) => {
+          const topic = topics.get(channelId) ?? "";
+          if (!isFrequent(topic)) return;
+          const message = this.#message(decoder.decode(data));
+          records.push({ time_ns: Number(logTime), topic, message, place });
+        },
+      );
+      if (!span || this.#closed) return;
+      this.#placed = { records, to: span.to };
+      this.#update();
+    } catch (error) {
+      this.#broken = true;
+      const reason = error instanceof Error ? error.message : String(error);
+      this.page.fail(
+        `${this.opened.title}: the index of the trace is damaged (${reason}). Not all messages and actions are shown.`,
+      );
+    }
+  }
+
+  #update(): void {
     const frames = new Float64Array(this.#frames);
-    const records = this.#fresh;
-    [this.#frames, this.#fresh] = [[], []];
+    const [records, window] = [this.#fresh, this.#placed];
+    [this.#frames, this.#fresh, this.#placed] = [[], [], null];
     const over = this.#read && this.#now >= this.#known;
     const update: Update = {
       now: this.#now,
@@ -335,6 +391,8 @@ export class Playback {
       frame: null,
       frames,
       records,
+      window,
+      rates: this.#ratesNow(),
       values: [],
       cut: null,
       states: this.#states.length > 0 ? this.#statesNow() : [],
@@ -343,10 +401,20 @@ export class Playback {
       robots: [],
       report: this.#report(over),
       stopped: null,
-      pace,
+      pace: this.#playing === null ? 0 : this.#pace,
     };
     this.#hasJoined = false;
-    this.post(update, [frames.buffer]);
+    this.page.post(update, [frames.buffer]);
+    if (!this.#broken) void this.#moveWindow();
+  }
+
+  /** The counts at most every RATES_EVERY ms; null in between. */
+  #ratesNow(): Update["rates"] {
+    const now = performance.now();
+    if (this.#read ? this.#ratesSaid === Infinity : now - this.#ratesSaid < RATES_EVERY) return null;
+    this.#ratesSaid = this.#read ? Infinity : now;
+    const { sent, delivered, lost } = this.#rates;
+    return { sent, delivered, lost };
   }
 
   #report(over: boolean): Report {

@@ -96,7 +96,11 @@ export interface Update {
   /** New frames in the order of their times, one after the other, each as `frame`. */
   frames: Float64Array | null;
   /** New records in the order of their times, without poses and estimates. */
-  records: starl.TraceRecord[];
+  records: (starl.TraceRecord & { place?: number })[];
+  /** These records replace all frequent ones before `to`; applies before what is new. Only of long traces. */
+  window: { records: (starl.TraceRecord & { place: number })[]; to: number } | null;
+  /** Messages by the second, where not all records reach the page. */
+  rates: { sent: number[]; delivered: number[]; lost: number[] } | null;
   /** New values of shared variables, by the hashes that records have for them. */
   values: starl.SharedValue[];
   /** Everything later than this moment is no longer so, because the run was steered. Applies before what is new. */
@@ -139,7 +143,9 @@ export type ToWorker =
   | { id: number; request: Request }
   /** The answer to `needs`. */
   | { module: WebAssembly.Module }
-  | { noModule: string };
+  | { noModule: string }
+  /** The answer to `needs`: all updates before it are shown. */
+  | { heard: true };
 
 export type FromWorker =
   | { id: number; ok: unknown }
@@ -147,5 +153,7 @@ export type FromWorker =
   | { update: Update }
   /** The worker simulates, and needs the module for that. */
   | { needs: "module" }
+  /** The worker continues when the page has taken all updates, so that they do not pile up. */
+  | { needs: "hearing" }
   /** An error without a request; the run cannot continue. */
   | { failed: string };

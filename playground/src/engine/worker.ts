@@ -26,6 +26,22 @@ function askForModule(): Promise<WebAssembly.Module> {
   });
 }
 
+/** Questions to the page whether it has taken all updates that it has not answered yet. */
+let unheard = 0;
+/** The greatest number of them before the worker waits. */
+const MOST_UNHEARD = 4;
+let hearing: (() => void) | null = null;
+
+/** Resolves when the page has taken all updates but the last few. */
+async function heard(): Promise<void> {
+  unheard++;
+  say({ needs: "hearing" });
+  if (unheard < MOST_UNHEARD) return;
+  await new Promise<void>((resolve) => {
+    hearing = resolve;
+  });
+}
+
 let shown: Driver | Playback | null = null;
 
 const say = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
@@ -33,6 +49,10 @@ const post = (update: Update, transfer: Transferable[]) => say({ update }, trans
 
 self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   if ("module" in data) return given?.resolve(data.module);
+  if ("heard" in data) {
+    unheard--;
+    return hearing?.();
+  }
   if ("noModule" in data) return given?.reject(new Error(data.noModule));
   const { id, request } = data;
   try {
@@ -110,7 +130,7 @@ async function start(source: Exclude<Source, { kind: "again" }>): Promise<Driver
     case "fleet": {
       // Simulated runs do without the reader of traces.
       const { Playback } = await import("./playback.ts");
-      return Playback.start(source, post, (message) => say({ failed: message }));
+      return Playback.start(source, { post, heard, fail: (message) => say({ failed: message }) });
     }
   }
 }

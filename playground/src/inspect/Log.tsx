@@ -68,6 +68,7 @@ export function Log() {
         {list.length.toLocaleString("en")} of {run.events.list.length.toLocaleString("en")} events
         {run.events.forgotten > 0 &&
           `; ${run.events.forgotten.toLocaleString("en")} of the oldest are forgotten`}
+        {run.events.isWindow && "; messages and actions near the moment shown only"}
       </p>
     </div>
   );

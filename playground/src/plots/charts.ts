@@ -27,12 +27,13 @@ export interface KeptRun {
 export const keptRuns = signal<KeptRun[]>([]);
 
 const rates = new Rates();
+const ratesNow = () => run.rates.value ?? rates.update(run.events);
 const sharedVariables = new SharedVariables();
 let tracks: Tracks | null = null;
 
 /** Keeps the run as it is known now. */
 export function keepRun(): void {
-  const { sent, delivered, lost } = rates.update(run.events);
+  const { sent, delivered, lost } = ratesNow();
   const shared = new Map(
     [...sharedVariables.update(run.events, run.values).steps].map(([name, steps]) => [name, [...steps]]),
   );
@@ -132,7 +133,7 @@ function messagesChart(): Chart {
     square: false,
     lines: [
       ...keptRuns.value.flatMap((kept) => lines(kept.messages, kept.number)),
-      ...lines(rates.update(run.events), null),
+      ...lines(ratesNow(), null),
     ],
   };
 }

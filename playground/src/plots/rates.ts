@@ -3,6 +3,9 @@
 import { kindOf } from "../inspect/kinds.ts";
 import type { Events } from "../run/events.ts";
 
+/** A trace can claim any time. */
+const MOST_SECONDS = 200_000;
+
 export class Rates {
   sent: number[] = [];
   delivered: number[] = [];
@@ -17,14 +20,19 @@ export class Rates {
     }
     for (; this.#scanned < events.list.length; this.#scanned++) {
       const event = events.list[this.#scanned];
-      const counts = event && this.#counts(kindOf(event.topic));
-      if (!event || !counts) continue;
-      const second = Math.floor(event.time);
-      while (this.sent.length <= second)
-        for (const list of [this.sent, this.delivered, this.lost]) list.push(0);
-      counts[second] = (counts[second] ?? 0) + 1;
+      if (event) this.count(event.topic, event.time);
     }
     return this;
+  }
+
+  /** Counts a record that happened at a time, s. */
+  count(topic: string, time: number): void {
+    const counts = this.#counts(kindOf(topic));
+    const second = Math.floor(time);
+    if (!counts || second >= MOST_SECONDS) return;
+    while (this.sent.length <= second)
+      for (const list of [this.sent, this.delivered, this.lost]) list.push(0);
+    counts[second] = (counts[second] ?? 0) + 1;
   }
 
   #counts(kind: string): number[] | null {

@@ -81,6 +81,8 @@ export class Run {
   readonly fleet = signal<Member[]>([]);
   readonly world = signal<World>({ obstacles: [], way_points: [], things: [] });
   readonly report = signal<Report | null>(null);
+  /** Messages by the second, where not all of the run's records are in `events`. */
+  readonly rates = signal<Update["rates"]>(null);
   /** All there is to see of the robots that are looked into, at the moment shown. */
   readonly robots = signal<Robot[]>([]);
   /** The robots that a person has chosen, the last one last. */
@@ -116,6 +118,7 @@ export class Run {
         this.states.value = [];
         this.robots.value = [];
         this.report.value = null;
+        this.rates.value = null;
         this.stopped.value = null;
         this.message.value = null;
         this.outcome.value = null;
@@ -277,7 +280,9 @@ export class Run {
       }
       if (update.over) this.ended.value = update.known;
       if (update.frames) this.history.add(update.frames);
+      if (update.window) this.events.moveWindow(update.window);
       this.events.add(update.records);
+      if (update.rates) this.rates.value = update.rates;
       for (const [variable, hash, value] of update.values) this.values.set(valueKey(variable, hash), value);
       this.now.value = update.now;
       this.known.value = update.known;
@@ -293,7 +298,8 @@ export class Run {
       if (update.world) this.world.value = update.world;
       if (update.report) this.report.value = update.report;
       if (update.stopped) this.stopped.value = update.stopped;
-      if (update.frames || update.records.length > 0 || update.cut !== null) this.grown.value++;
+      if (update.frames || update.records.length > 0 || update.window || update.cut !== null)
+        this.grown.value++;
     });
   }
 

@@ -1,6 +1,6 @@
 // Shared code of the browser tests: the built page, served from this machine, in a headless Chromium of the system.
 
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
 import { after, before } from "node:test";
@@ -24,14 +24,15 @@ const CODINGS = { br: brotliCompressSync, gzip: (content) => gzipSync(content, {
 
 /** Serves a folder on a free port of the loopback interface; `close` ends it. `coding` compresses all files. */
 async function serve({ folder = DIST, coding = null } = {}) {
-  const sent = new Map();
-  const contentOf = (file) => {
-    if (!coding) return readFileSync(file);
-    if (!sent.has(file)) sent.set(file, CODINGS[coding](readFileSync(file)));
-    return sent.get(file);
-  };
   if (!existsSync(join(folder, "index.html")))
     throw new Error(`${folder} holds no page: run "make page" first`);
+  // Compressed before anything is asked for, so that no visit waits for it.
+  const sent = new Map();
+  for (const entry of coding ? readdirSync(folder, { recursive: true, withFileTypes: true }) : []) {
+    const file = join(entry.parentPath ?? entry.path, entry.name);
+    if (entry.isFile()) sent.set(file, CODINGS[coding](readFileSync(file)));
+  }
+  const contentOf = (file) => sent.get(file) ?? readFileSync(file);
   const server = createServer((request, answer) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
     const file = join(folder, path.endsWith("/") ? `${path}index.html` : path);

@@ -33,7 +33,9 @@ async function open(bytes: Uint8Array<ArrayBuffer>): Promise<Shown> {
       last = update;
       shown.frames += update.frames?.length ?? 0;
     };
-    const playback = await Playback.start(source, post, (message) => shown.damaged.push(message));
+    const heard = () => new Promise<void>((resolve) => setTimeout(resolve));
+    const fail = (message: string) => void shown.damaged.push(message);
+    const playback = await Playback.start(source, { post, heard, fail });
     await playback.recorded().catch(() => undefined);
     await playback.whole;
     shown.known = (last as Update | null)?.known ?? 0;

@@ -2,7 +2,7 @@
 //!
 //! Paths have `/` between their parts; `.` and `..` are resolved. They are relative, but on a host that has a disk.
 
-use crate::examples::Example;
+use crate::examples::{self, Example};
 use crate::language::SUFFIX;
 use starl_core::{FileError, file};
 use starl_lang::check::{Libraries, StandardLibraries};
@@ -54,7 +54,9 @@ impl Files {
         match (self.held.get(path), self.disk) {
             (Some(held), _) => Ok(Cow::Borrowed(held)),
             (None, Some(Disk(read))) => read(Path::new(path)).map(Cow::Owned),
-            (None, None) => Err(FileError::Missing),
+            (None, None) => examples::model(path)
+                .map(Cow::Borrowed)
+                .ok_or(FileError::Missing),
         }
     }
 
