@@ -1,6 +1,6 @@
-//! Failure detectors: who has crashed is suspected, and who is heard is trusted again.
+//! Failure detectors: a robot that has crashed is suspected, and one that is heard is trusted again.
 //!
-//! Records do not show which robots run a detector before it suspects somebody for the first time. A robot counts from its
+//! Records do not show which robots run a detector before it suspects a robot for the first time. A robot counts from its
 //! first finding on, and again a while after each of its restarts and corruptions, when it has either heard each other
 //! robot or suspected it for its silence.
 
@@ -24,9 +24,9 @@ pub(super) struct FailureDetector {
     health: Health,
     /// Since when each robot runs the detector of a port without a fault of its own.
     observers: BTreeMap<(Port, RobotId), Time>,
-    /// The suspected robot, and by whom it is.
+    /// The suspected robot, and the robot that suspects it.
     suspected: BTreeMap<(RobotId, Port, RobotId), Heard>,
-    /// Crashes that are to be suspected: until when, the crashed robot, and by whom.
+    /// Crashes that are to be suspected: until when, the crashed robot, and the robot that owes it.
     owed: BTreeSet<(Time, RobotId, Port, RobotId)>,
     excused: Excused,
 }
@@ -122,7 +122,7 @@ impl FailureDetector {
         }
     }
 
-    /// A robot knows no longer whom it suspects, or nobody need know any more.
+    /// A robot has lost its suspicions, and owes none for the crashes so far.
     fn forget(&mut self, at: Time, robot: RobotId, excuse: Option<Excuse>) {
         for since in self.observers.iter_mut().filter(|(key, _)| key.1 == robot) {
             *since.1 = at;

@@ -52,7 +52,7 @@ fn a_crash_that_is_suspected_satisfies_all_properties() {
 }
 
 #[test]
-fn a_crash_that_nobody_notices_is_found_for_each_observer() {
+fn a_crash_that_goes_unnoticed_is_found_for_each_observer() {
     let mut story = robots();
     story.fault(10_000, Some(2), "crash");
     suspects(&mut story, 12_000, 0, 2, "silence");
@@ -73,7 +73,7 @@ fn a_restart_must_be_noticed_however_short() {
 }
 
 #[test]
-fn who_suspects_a_robot_already_need_not_do_so_again() {
+fn a_robot_that_is_suspected_already_need_not_be_suspected_again() {
     let mut story = robots();
     suspects(&mut story, 9_000, 0, 2, "silence");
     suspects(&mut story, 9_000, 1, 2, "silence");
@@ -118,7 +118,7 @@ fn a_robot_that_is_heard_and_never_trusted_is_found_once() {
 }
 
 #[test]
-fn silence_crashes_and_corruptions_let_the_time_of_trust_begin_anew() {
+fn silences_and_corruptions_restart_the_time_of_trust() {
     let mut silent = robots();
     suspects(&mut silent, 10_000, 0, 2, "silence");
     hears(&mut silent, 12_000, 18_000, 0, 2);
