@@ -8,7 +8,7 @@ use starl_core::{Duration, Time, math};
 /// The share of each new interval in mean and variance: about the last sixteen count.
 const WEIGHT: f64 = 1.0 / 16.0;
 
-/// So many lives of a robot are remembered: late copies of their heartbeats do not look like restarts.
+/// The number of lives of a robot that are remembered: late copies of their heartbeats do not look like restarts.
 const LIVES: usize = 64;
 
 /// A heartbeat that is further behind is no late copy: a corruption has left the greater number.

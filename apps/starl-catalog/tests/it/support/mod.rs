@@ -33,7 +33,7 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// What runs.
+    /// The application of the case.
     pub fn application(&self) -> Application {
         let example = examples::find(self.example).expect("it is an example");
         let seed = self.seed.map(|seed| format!("seed={seed}"));
