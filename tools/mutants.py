@@ -405,7 +405,7 @@ def report(mutants, results, options):
     left = [mutant for mutant in mutants if mutant not in caught]
     equivalent = [mutant for mutant in left if "equivalent" in mutant]
     judged = max(1, len(mutants) - len(equivalent))
-    tested = [mutant for mutant in left if results[mutant["name"]].get("test")]
+    tested = [mutant for mutant in left if mutant not in equivalent and results[mutant["name"]].get("test")]
     percent = [f"{100 * count / judged:.0f} %" for count in (len(caught), len(caught) + len(tested))]
     summary = (
         f"{len(mutants)} of {listed} bugs tried, {len(equivalent)} of them equivalent. Of the other {judged}, runs with "
