@@ -118,15 +118,21 @@ impl FailureDetector {
             }
         }
         if let Change::Fault(Fault::Restart) = change {
-            self.forget(at, robot, None);
+            // It may have been up: then it keeps its suspicions.
+            self.observe_from(at, robot);
+        }
+    }
+
+    /// A robot owes suspicions of crashes from a bound after this moment on.
+    fn observe_from(&mut self, at: Time, robot: RobotId) {
+        for since in self.observers.iter_mut().filter(|(key, _)| key.1 == robot) {
+            *since.1 = at;
         }
     }
 
     /// A robot has lost its suspicions, and owes none for the crashes so far.
     fn forget(&mut self, at: Time, robot: RobotId, excuse: Option<Excuse>) {
-        for since in self.observers.iter_mut().filter(|(key, _)| key.1 == robot) {
-            *since.1 = at;
-        }
+        self.observe_from(at, robot);
         self.suspected.retain(|&(_, _, by), _| by != robot);
         let excused = &mut self.excused;
         self.owed.retain(|&(.., by)| {

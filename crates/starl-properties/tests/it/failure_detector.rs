@@ -110,6 +110,16 @@ fn a_bound_after_its_own_restart_an_observer_owes_as_before() {
 }
 
 #[test]
+fn a_restart_of_an_observer_that_is_up_changes_nothing() {
+    let mut story = robots();
+    suspects(&mut story, 5_000, 0, 2, "silence");
+    suspects(&mut story, 5_000, 1, 2, "silence");
+    story.fault(6_000, Some(1), "restart");
+    story.fault(20_000, Some(2), "crash");
+    assert_eq!(properties(&story), [""; 0]);
+}
+
+#[test]
 fn a_robot_that_is_heard_and_never_trusted_is_found_once() {
     let mut story = robots();
     suspects(&mut story, 10_000, 0, 2, "silence");

@@ -197,6 +197,7 @@ fn only_enabled_properties_are_checked() {
     scenario.properties.mutex = false;
     scenario.properties.registration = false;
     scenario.properties.barrier = false;
+    scenario.properties.failure_detector = false;
     scenario.properties.no_collision = false;
     scenario.properties.reach_avoid = false;
     assert_eq!(verdicts(scenario, true), []);
