@@ -10,7 +10,7 @@ use super::health::{Change, Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
-use starl_core::event::{BarrierEvent, Event};
+use starl_core::event::BarrierEvent;
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -287,24 +287,14 @@ impl Checker for Barrier {
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
-        match &record.event {
-            Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record) {
-                    self.pass(record.at, violations);
-                    self.reported(&report);
-                }
-            }
-            Event::Fault(fault) => {
-                self.pass(record.at, violations);
-                self.health.observe(record);
-                self.changed(record.at, record.robot, Change::Fault(fault));
-            }
-            Event::Failed(_) => {
-                self.pass(record.at, violations);
-                self.health.observe(record);
-                self.changed(record.at, record.robot, Change::Failed);
-            }
-            _ => {}
+        if let Some(report) = Report::of(record) {
+            self.pass(record.at, violations);
+            self.reported(&report);
+        }
+        if let Some(change) = Change::of(record) {
+            self.pass(record.at, violations);
+            self.health.observe(record);
+            self.changed(record.at, record.robot, change);
         }
     }
 

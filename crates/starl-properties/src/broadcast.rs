@@ -2,9 +2,9 @@
 //! its broadcast.
 //!
 //! Every other robot must deliver the message until the bound ends or the sender reports that it has given the robot
-//! up, whichever is first. If the sender reports it as acknowledged, all must have delivered it. Excused are robots
-//! that were down, all robots if the sender was down, and robots to which a partition dropped a datagram of the sender
-//! meanwhile.
+//! up, whichever is first. If the sender reports it as acknowledged, all must have delivered it. In causal order a robot
+//! may hold a message back that it has received, so that only the bound counts there. Excused are robots that were
+//! down, all robots if the sender was down, and robots to which a partition dropped a datagram of the sender meanwhile.
 
 use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
@@ -29,7 +29,8 @@ pub(super) struct Broadcast {
 #[derive(Clone, Debug)]
 struct Message {
     sent: Time,
-    /// In causal order robots acknowledge what they still hold back.
+    /// In causal order a robot may hold back what it has received, so that neither acknowledgements nor their absence
+    /// say whether it has delivered it.
     is_causal: bool,
     /// The robots that have not delivered it, in the order of their numbers.
     owed: Vec<RobotId>,
@@ -100,8 +101,7 @@ impl Broadcast {
         }
     }
 
-    /// The sender has given robots up.
-    /// No fault excuses a sender that believes what is not so.
+    /// The sender reports that all robots have the message. No fault excuses a sender that believes what is not so.
     fn acknowledged(&mut self, at: Time, key: MessageKey, found: &mut Vec<Violation>) {
         let message = self.outstanding.get_mut(&key);
         let Some(message) = message.filter(|message| !message.is_causal) else {
@@ -118,6 +118,7 @@ impl Broadcast {
         found.push(Violation::new(DELIVERY, at, robots, text));
     }
 
+    /// The sender has given robots up.
     fn failed(
         &mut self,
         at: Time,
@@ -125,7 +126,8 @@ impl Broadcast {
         given_up: &[RobotId],
         found: &mut Vec<Violation>,
     ) {
-        let Some(message) = self.outstanding.get_mut(&key) else {
+        let message = self.outstanding.get_mut(&key);
+        let Some(message) = message.filter(|message| !message.is_causal) else {
             return;
         };
         let (lost, owed) = message

@@ -112,7 +112,15 @@ impl FailureDetector {
             }
         }
         if change.is_end() || change.is_corruption() {
-            self.forget(at, robot, change.excuse());
+            // It has lost its suspicions, and owes none for the crashes so far.
+            self.observe_from(at, robot);
+            self.suspected.retain(|&(_, _, by), _| by != robot);
+            let owed = self.owed.len();
+            self.owed.retain(|&(.., by)| by != robot);
+            if let Some(excuse) = change.excuse() {
+                let forgiven = owed - self.owed.len();
+                (0..forgiven).for_each(|_| self.excused.note(COMPLETENESS, excuse));
+            }
             for heard in self.suspected.iter_mut().filter(|(key, _)| key.0 == robot) {
                 *heard.1 = Heard::default();
             }
@@ -128,19 +136,6 @@ impl FailureDetector {
         for since in self.observers.iter_mut().filter(|(key, _)| key.1 == robot) {
             *since.1 = at;
         }
-    }
-
-    /// A robot has lost its suspicions, and owes none for the crashes so far.
-    fn forget(&mut self, at: Time, robot: RobotId, excuse: Option<Excuse>) {
-        self.observe_from(at, robot);
-        self.suspected.retain(|&(_, _, by), _| by != robot);
-        let excused = &mut self.excused;
-        self.owed.retain(|&(.., by)| {
-            if by == robot {
-                excused.note(COMPLETENESS, excuse.unwrap_or(Excuse::Recovery));
-            }
-            by != robot
-        });
     }
 
     /// A robot has left the fleet.
@@ -198,6 +193,13 @@ impl Checker for FailureDetector {
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        if let Some(change) = Change::of(record) {
+            self.pass(record.at, violations);
+            self.health.observe(record);
+            if let Some(robot) = record.robot {
+                self.changed(record.at, robot, change);
+            }
+        }
         match &record.event {
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record) {
@@ -208,20 +210,6 @@ impl Checker for FailureDetector {
             &Event::Delivered { from, .. } => {
                 if let Some(by) = record.robot {
                     self.heard(record.at, from, by, violations);
-                }
-            }
-            Event::Fault(fault) => {
-                self.pass(record.at, violations);
-                self.health.observe(record);
-                if let Some(robot) = record.robot {
-                    self.changed(record.at, robot, Change::Fault(fault));
-                }
-            }
-            Event::Failed(_) => {
-                self.pass(record.at, violations);
-                self.health.observe(record);
-                if let Some(robot) = record.robot {
-                    self.changed(record.at, robot, Change::Failed);
                 }
             }
             Event::Intervention(what) => {

@@ -34,7 +34,16 @@ pub(super) enum Change<'a> {
     Pushed,
 }
 
-impl Change<'_> {
+impl<'a> Change<'a> {
+    /// What a record says about the condition of its robot, or of the network if it names no robot.
+    pub fn of(record: &'a Record) -> Option<Change<'a>> {
+        match &record.event {
+            Event::Fault(fault) => Some(Change::Fault(fault)),
+            Event::Failed(_) => Some(Change::Failed),
+            _ => None,
+        }
+    }
+
     /// Whether the robot does nothing any more, or nothing until it starts again.
     pub fn is_end(self) -> bool {
         matches!(self, Change::Fault(Fault::Crash) | Change::Failed)
@@ -101,19 +110,16 @@ impl Health {
 
     /// Records faults.
     pub fn observe(&mut self, record: &Record) {
-        match &record.event {
-            Event::Fault(fault) => match record.robot {
-                Some(robot) => self.change(robot, record.at, Change::Fault(fault)),
+        if let Some(change) = Change::of(record) {
+            match record.robot {
+                Some(robot) => self.change(robot, record.at, change),
                 None => {
                     let oldest = record.at - self.memory;
                     self.cuts.retain(|_, at| *at >= oldest);
                 }
-            },
-            Event::Failed(_) => {
-                if let Some(robot) = record.robot {
-                    self.change(robot, record.at, Change::Failed);
-                }
             }
+        }
+        match &record.event {
             Event::Intervention(what) => {
                 if let Intervention::Push { robot, .. } = **what {
                     self.change(robot, record.at, Change::Pushed);

@@ -264,8 +264,8 @@ fn no_fault_excuses_an_acknowledged_message_without_delivery() {
     assert_none(&story.verdict(60_000));
 }
 
-#[test]
-fn a_partition_is_remembered_for_as_long_as_causal_order_has_time() {
+/// Robot 0 broadcasts message 1 in causal order at 1 s to robot 1, which has 10 s to deliver it.
+fn causal_broadcast_at_1s() -> Story {
     let mut story = Story::of_ground_robots(2);
     story.setting.properties.broadcast_bound = seconds(5);
     let fields = [
@@ -275,6 +275,26 @@ fn a_partition_is_remembered_for_as_long_as_causal_order_has_time() {
         ("order", "causal".into()),
     ];
     story.report(1000, 0, ("broadcast", "broadcast"), fields);
+    story
+}
+
+#[test]
+fn in_causal_order_a_message_may_be_held_back_longer_than_its_sender_waits() {
+    let mut story = causal_broadcast_at_1s();
+    story.fails(4000, 0, 1, &[1]);
+    assert_only(
+        &story.verdict(60_000),
+        "broadcast.delivery",
+        11_000,
+        &[0, 1],
+    );
+    story.delivers(9000, 1, "broadcast", (0, 1));
+    assert_none(&story.verdict(60_000));
+}
+
+#[test]
+fn a_partition_is_remembered_for_as_long_as_causal_order_has_time() {
+    let mut story = causal_broadcast_at_1s();
     let mut lost = story.clone();
     lost.fault(9000, None, "partition");
     assert_only(&lost.verdict(60_000), "broadcast.delivery", 11_000, &[0, 1]);
