@@ -1,7 +1,6 @@
 //! Messages between robots.
 
 use crate::{Port, RobotId};
-use alloc::vec::Vec;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use smallvec::SmallVec;
 
@@ -40,21 +39,12 @@ pub fn encode<T: Serialize>(value: &T) -> Payload {
     with_encoded(value, Payload::from_slice)
 }
 
-/// Bytes that most values take less than.
-const USUAL: usize = 256;
-
 /// Hands the encoding of a value to `use_it`. Most are made on the stack and not moved.
-pub(crate) fn with_encoded<T: Serialize, R>(value: &T, use_it: impl FnOnce(&[u8]) -> R) -> R {
-    let mut room = [0; USUAL];
-    if let Ok(bytes) = postcard::to_slice(value, &mut room) {
-        return use_it(bytes);
-    }
-    // The only error postcard reports for an unbounded buffer is a type without a known length,
-    // which no message of ours has.
-    let buffer = Buffer::default();
-    let long =
-        postcard::serialize_with_flavor(value, buffer).expect("a message has a known length");
-    use_it(&long)
+pub fn with_encoded<T: Serialize, R>(value: &T, use_it: impl FnOnce(&[u8]) -> R) -> R {
+    let mut room = Room::new();
+    // The only error that postcard reports here is a type without a known length, which none of ours is.
+    postcard::serialize_with_flavor(value, Append(&mut room)).expect("all lengths are known");
+    use_it(&room)
 }
 
 /// Decodes what [`encode`] made; none where the bytes are not a `T`, or are more than one.
@@ -65,11 +55,14 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
     }
 }
 
-#[derive(Default)]
-struct Buffer(Vec<u8>);
+/// Room for an encoding. Most values take less than it has on the stack.
+type Room = SmallVec<[u8; 256]>;
 
-impl postcard::ser_flavors::Flavor for Buffer {
-    type Output = Vec<u8>;
+/// Everything is encoded through this one type, so that there is only one encoder of each type of value.
+struct Append<'a>(&'a mut Room);
+
+impl postcard::ser_flavors::Flavor for Append<'_> {
+    type Output = ();
 
     fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
         self.0.extend_from_slice(data);
@@ -81,7 +74,7 @@ impl postcard::ser_flavors::Flavor for Buffer {
         Ok(())
     }
 
-    fn finalize(self) -> postcard::Result<Vec<u8>> {
-        Ok(self.0)
+    fn finalize(self) -> postcard::Result<()> {
+        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Entries of several robots put together to one message of a trace.
 
-use super::bytes::encode_to;
+use super::bytes::append;
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -77,7 +77,7 @@ impl Packer {
         for (hash, list) in &batch.lists {
             if self.written.insert(*hash) {
                 let hash = *hash;
-                content = encode_to(&Frame::List { hash, list }, content);
+                append(&Frame::List { hash, list }, &mut content);
             }
         }
         for Noted { at, robot, entry } in &batch.entries {
@@ -86,7 +86,7 @@ impl Packer {
                 after: at.0 - start.0,
                 entry,
             };
-            content = encode_to(&frame, content);
+            append(&frame, &mut content);
         }
         Some((start, content))
     }
