@@ -57,7 +57,7 @@ WASM_FEATURES = --enable-bulk-memory --enable-sign-ext --enable-mutable-globals 
 wasm-module:
 	cargo build --locked --profile page -p starl-wasm --target wasm32-unknown-unknown
 	mkdir -p $(dir $(MODULE))
-	[ $(MODULE) -nt $(LINKED_MODULE) ] || wasm-opt $(WASM_FEATURES) -O1 $(LINKED_MODULE) -o $(MODULE)
+	[ $(MODULE) -nt $(LINKED_MODULE) ] || wasm-opt $(WASM_FEATURES) -O1 --dae-optimizing $(LINKED_MODULE) -o $(MODULE)
 
 # The page: built into playground/dist, where a `starl` that is built afterwards finds it.
 page: setup wasm-module

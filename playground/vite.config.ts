@@ -10,6 +10,14 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     assetsInlineLimit: 0,
     chunkSizeWarningLimit: 900,
+    // What every visit loads is one file: each request costs headers, and small files compress badly.
+    rolldownOptions: {
+      output: {
+        codeSplitting: {
+          groups: [{ name: "page", tags: ["$initial"], includeDependenciesRecursively: false }],
+        },
+      },
+    },
   },
   worker: { format: "es" },
   plugins: [preloadModule(), offline()],

@@ -20,6 +20,8 @@ async function cold(address, ready) {
   await page.goto(site.url + address);
   await ready(page);
   const took = performance.now() - opened;
+  // What loads after that is part of the visit.
+  await page.waitForLoadState("networkidle");
   const until = bytes;
   const marks = await page.evaluate(() =>
     performance.getEntriesByType("resource").map(({ name, startTime, responseEnd, encodedBodySize }) => ({
@@ -53,7 +55,7 @@ for (const coding of ["br", "gzip"]) {
   for (const [what, [address, ready]] of Object.entries(visits)) {
     const runs = [];
     for (let run = 0; run < RUNS; run++) runs.push(await cold(address, ready));
-    const size = (median(runs.map(({ bytes }) => bytes)) / 1e6).toFixed(2);
+    const size = (median(runs.map(({ bytes }) => bytes)) / 1e6).toFixed(3);
     const took = median(runs.map(({ took }) => took)).toFixed(0);
     console.log(`${coding}: ${what} after ${size} MB and ${took} ms (medians of ${RUNS})`);
     if (process.argv.includes("--files")) console.table(runs[0].marks);

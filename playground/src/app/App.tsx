@@ -3,15 +3,17 @@
 
 import { signal } from "@preact/signals";
 import { DropPlace } from "../files/OpenFiles.tsx";
-import { Timeline } from "../timeline/Timeline.tsx";
 import { Transport } from "../timeline/Transport.tsx";
 import { WorldView } from "../world/WorldView.tsx";
 import { Bench } from "./Bench.tsx";
 import { run, start } from "./context.ts";
 import { Divider } from "./Divider.tsx";
 import { Header } from "./Header.tsx";
+import { lazy } from "./lazy.tsx";
 import { Problem } from "./Problem.tsx";
 import { Side } from "./Side.tsx";
+
+const Timeline = lazy(async () => (await import("../timeline/Timeline.tsx")).Timeline);
 
 /** Which part a small screen shows. */
 export const part = signal<"write" | "world" | "inspect">("world");

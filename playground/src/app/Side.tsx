@@ -1,7 +1,5 @@
 // Information about the run, and its steering.
 
-import { Properties } from "../inspect/Properties.tsx";
-import { Robots } from "../inspect/Robots.tsx";
 import { violations } from "../inspect/violations.ts";
 import { run } from "./context.ts";
 import { lazy } from "./lazy.tsx";
@@ -13,11 +11,15 @@ const Compare = lazy(async () => (await import("../compare/Compare.tsx")).Compar
 const Messages = lazy(async () => (await import("../messages/Messages.tsx")).Messages);
 const Plots = lazy(async () => (await import("../plots/Plots.tsx")).Plots);
 const Steer = lazy(async () => (await import("../meddle/Steer.tsx")).Steer);
+const Robots = lazy(async () => (await import("../inspect/Robots.tsx")).Robots);
+const Properties = lazy(async () => (await import("../inspect/Properties.tsx")).Properties);
 const Log = lazy(async () => (await import("../inspect/Log.tsx")).Log);
+
+const NoRobots = () => <p class="muted">Open an example or a program to see its robots.</p>;
 
 export function Side() {
   const tabs: Tab[] = [
-    { name: "robots", label: "Robots", panel: Robots },
+    { name: "robots", label: "Robots", panel: run.opened.value ? Robots : NoRobots },
     { name: "messages", label: "Messages", panel: Messages },
     { name: "properties", label: "Properties", panel: Properties, count: violations.value.length },
     { name: "log", label: "Log", panel: Log },

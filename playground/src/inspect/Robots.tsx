@@ -7,7 +7,6 @@ import { Recorded } from "./Recorded.tsx";
 import "../styles/inspect.css";
 
 export function Robots() {
-  if (!run.opened.value) return <p class="muted">Open an example or a program to see its robots.</p>;
   const chosen = run.selected.value.length > 0;
   return (
     <div class="robots">
