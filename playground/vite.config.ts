@@ -10,7 +10,7 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     assetsInlineLimit: 0,
     chunkSizeWarningLimit: 900,
-    // What every visit loads is one file: each request costs headers, and small files compress badly.
+    // All code that every visit loads is in one file: each request costs headers, and small files compress badly.
     rolldownOptions: {
       output: {
         codeSplitting: {

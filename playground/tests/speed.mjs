@@ -20,7 +20,7 @@ async function cold(address, ready) {
   await page.goto(site.url + address);
   await ready(page);
   const took = performance.now() - opened;
-  // What loads after that is part of the visit.
+  // The visit includes files that load after that.
   await page.waitForLoadState("networkidle");
   const until = bytes;
   const marks = await page.evaluate(() =>

@@ -35,7 +35,7 @@ pub(super) enum Change<'a> {
 }
 
 impl<'a> Change<'a> {
-    /// What a record says about the condition of its robot, or of the network if it names no robot.
+    /// The change of a robot's condition that a record is about, or of the network's if it names no robot.
     pub fn of(record: &'a Record) -> Option<Change<'a>> {
         match &record.event {
             Event::Fault(fault) => Some(Change::Fault(fault)),
