@@ -10,7 +10,7 @@ use crate::Excuse;
 use crate::report::MessageKey;
 use starl_core::event::{DropReason, Event, Fault};
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// The condition that a guarantee demands of a robot; each includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -80,8 +80,9 @@ pub(super) struct Health {
     cuts: BTreeMap<(RobotId, RobotId), Time>,
     /// Cuts older than this are forgotten.
     memory: Duration,
-    /// Senders, their lives and receivers: a message of this life has been delivered since the receiver started.
-    met: BTreeSet<(RobotId, u32, RobotId)>,
+    /// Senders, their lives and receivers, where a message of this life has been delivered since the receiver started:
+    /// the last cut of the way back before the first delivery.
+    met: BTreeMap<(RobotId, u32, RobotId), Option<Time>>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -104,7 +105,7 @@ impl Health {
             robots: vec![Condition::default(); robots],
             cuts: BTreeMap::new(),
             memory,
-            met: BTreeSet::new(),
+            met: BTreeMap::new(),
         }
     }
 
@@ -171,8 +172,11 @@ impl Health {
         let unwell = [from, to]
             .into_iter()
             .find(|robot| !self.well_since(*robot, since));
-        let is_met = self.met.contains(&(from, incarnation, to));
-        let is_heard = is_met || self.linked_since(to, from, since);
+        // Until they have met, the sender has to hear the receiver too.
+        let is_heard = match self.met.get(&(from, incarnation, to)) {
+            Some(cut) => cut.is_none_or(|at| at < since),
+            None => self.linked_since(to, from, since),
+        };
         let is_linked = is_heard && self.linked_since(from, to, since);
         let parted = (!is_linked).then_some(Excuse::Partition);
         unwell.map(|robot| self.excuse(robot)).or(parted)
@@ -180,13 +184,15 @@ impl Health {
 
     /// A message was delivered to a robot, perhaps of a life of its sender that is over.
     pub fn delivered(&mut self, message: &MessageKey, to: RobotId) {
-        self.met.insert((message.from, message.incarnation, to));
+        let lives = (message.from, message.incarnation, to);
+        let cut = self.cuts.get(&(to, message.from)).copied();
+        self.met.entry(lives).or_insert(cut);
     }
 
     fn change(&mut self, robot: RobotId, at: Time, change: Change<'_>) {
         if change.is_end() {
             self.met
-                .retain(|&(from, _, to)| from != robot && to != robot);
+                .retain(|&(from, _, to), _| from != robot && to != robot);
         }
         let needs = self.needs;
         let Some(condition) = self.robots.get_mut(robot.index()) else {

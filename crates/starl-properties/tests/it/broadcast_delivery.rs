@@ -231,6 +231,20 @@ fn a_late_message_of_an_earlier_life_makes_no_later_life_known() {
 }
 
 #[test]
+fn robots_that_meet_only_after_a_cut_owe_nothing_from_before() {
+    for (meets, excused) in [(3000, true), (900, false)] {
+        let mut story = Story::of_ground_robots(2);
+        story.setting.properties.broadcast_bound = seconds(5);
+        story.broadcasts(800, 0, 1);
+        story.broadcasts(1000, 0, 2);
+        // Robot 0 does not hear robot 1 until 3 s.
+        dropped(&mut story, 1500, (1, 0), DropReason::Partition);
+        story.delivers(meets, 1, "broadcast", (0, 1));
+        assert_eq!(story.verdict(60_000).is_empty(), excused, "{meets}");
+    }
+}
+
+#[test]
 fn loss_and_range_excuse_no_robot() {
     for reason in [DropReason::Loss, DropReason::Range, DropReason::Bandwidth] {
         let mut story = robot_2_hears_nothing();
