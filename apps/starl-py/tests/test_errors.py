@@ -31,6 +31,8 @@ def race() -> Any:
         (lambda: race().step(-1), "steps: -1 is less than 0"),
         (lambda: race().crash(), "at least one robot"),
         (lambda: race().crash(-1), "there is no robot -1"),
+        (lambda: race().crash(1.5), "there is no robot 1.5"),
+        (lambda: race().robot("robot7"), "one of the names iRobot0, iRobot1, quadcopter0"),
         (lambda: race().crash(4), "there is no robot 4; the fleet has 4"),
         (lambda: race().crash(1, at=math.nan), "not finite"),
         (lambda: race().push(0, (math.nan, 1)), "is not a point"),

@@ -82,6 +82,7 @@ def test_steering_acts_and_is_in_the_scenario() -> None:
     simulation.heal(at=5.0)
     simulation.run(2.0)
     assert simulation.robot(0)["condition"] == "down"
+    assert simulation.robot(simulation.robots[0].name) == simulation.robot(0)
     simulation.run(6.0)
     faults = simulation.records("fault").to_polars()["text"].to_list()
     assert len(faults) == 4

@@ -211,10 +211,23 @@ class Simulation:
         if self._arrays is not None and not self._engine.fill(self._number, *self._arrays):
             self._arrays = None
 
-    def robot(self, number: int) -> dict[str, Any]:
-        """One robot at this moment: its variables, actions, primitives, timers and mailbox."""
-        found: dict[str, Any] = self._ask("robot", robot=number)
+    def robot(self, robot: int | str) -> dict[str, Any]:
+        """One robot at this moment, by its number or name: its variables, actions, primitives, timers and mailbox."""
+        found: dict[str, Any] = self._ask("robot", robot=self._robot(robot))
         return found
+
+    def _robot(self, robot: int | str) -> int:
+        """The number of a robot that is given by its number or name. A number may be that of a robot that joins later."""
+        if isinstance(robot, (int, np.integer)) and robot >= 0:
+            return int(robot)
+        names = [one["name"] for one in self._ask("fleet")]
+        if robot in names:
+            return names.index(robot)
+        some = ", ".join(names[:8]) + (" ..." if len(names) > 8 else "")
+        raise StarlError(f"there is no robot {robot!r}; give a number from 0, or one of the names {some}")
+
+    def _robots(self, robots: Iterable[int | str]) -> list[int]:
+        return [self._robot(robot) for robot in robots]
 
     def states(self) -> list[dict[str, Any]]:
         """The condition of each robot and the state of its program, in one line."""
@@ -285,33 +298,33 @@ class Simulation:
     def _fault(self, fault: Any, at: float | None) -> None:
         self.apply({"fault": fault}, at=at)
 
-    def crash(self, *robots: int, at: float | None = None) -> None:
+    def crash(self, *robots: int | str, at: float | None = None) -> None:
         """Robots crash: they lose all but stored variables, and stop."""
         _named(robots)
-        self._fault({"crash": list(robots)}, at)
+        self._fault({"crash": self._robots(robots)}, at)
 
-    def restart(self, *robots: int, at: float | None = None) -> None:
+    def restart(self, *robots: int | str, at: float | None = None) -> None:
         """Robots that are down start again."""
         _named(robots)
-        self._fault({"restart": list(robots)}, at)
+        self._fault({"restart": self._robots(robots)}, at)
 
-    def partition(self, *groups: Sequence[int], at: float | None = None) -> None:
+    def partition(self, *groups: Sequence[int | str], at: float | None = None) -> None:
         """Robots in different groups do not hear each other; robots in no group form one more."""
-        self._fault({"partition": [list(group) for group in groups]}, at)
+        self._fault({"partition": [self._robots(group) for group in groups]}, at)
 
     def heal(self, *, at: float | None = None) -> None:
         """Ends a partition."""
         self._fault("heal", at)
 
-    def push(self, robot: int, by: Sequence[float], *, at: float | None = None) -> None:
+    def push(self, robot: int | str, by: Sequence[float], *, at: float | None = None) -> None:
         """Moves a robot's body by x, y, z as far as nothing is in the way."""
-        self.apply({"push": {"robot": robot, "by": _point(by)}}, at=at)
+        self.apply({"push": {"robot": self._robot(robot), "by": _point(by)}}, at=at)
 
-    def tell(self, name: str, *robots: int, at: float | None = None, **fields: Any) -> None:
+    def tell(self, name: str, *robots: int | str, at: float | None = None, **fields: Any) -> None:
         """An operator tells robots something; all of them if none are named. Fields are truth values, numbers, texts and
         places."""
         order = {"name": name, "fields": [[field, _value(field, value)] for field, value in fields.items()]}
-        self.apply({"tell": {"robots": list(robots), "order": order}}, at=at)
+        self.apply({"tell": {"robots": self._robots(robots), "order": order}}, at=at)
 
     def set_way_point(self, name: str, position: Sequence[float], *, at: float | None = None) -> None:
         """Sets a waypoint, new or not."""
@@ -342,12 +355,9 @@ class Simulation:
         return f"<starl.Simulation of {self.title!r} at {self.now:g} s{' (over)' if self.over else ''}>"
 
 
-def _named(robots: Sequence[int]) -> None:
+def _named(robots: Sequence[int | str]) -> None:
     if not robots:
-        raise StarlError("name at least one robot by its number")
-    for robot in robots:
-        if index(robot) < 0:
-            raise StarlError(f"there is no robot {robot}; robots are numbers from 0")
+        raise StarlError("name at least one robot by its number or name")
 
 
 def _topic(name: str) -> str:
