@@ -1,6 +1,7 @@
 // The list of all robots, with a filter.
 
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
+import { useMemo } from "preact/hooks";
 import { colorOf } from "../app/colors.ts";
 import { run } from "../app/context.ts";
 import { type Member, POSE_NUMBERS } from "../engine/types.ts";
@@ -80,8 +81,12 @@ export function Fleet() {
 }
 
 function Row({ member, of, state }: { member: Member; of: number; state: string | null }) {
-  const condition =
-    CONDITIONS[run.poses.value[member.id * POSE_NUMBERS + POSE_NUMBERS - 1] ?? -1] ?? member.condition;
+  // Poses change with every picture, conditions hardly ever.
+  const now = useMemo(
+    () => computed(() => CONDITIONS[run.poses.value[member.id * POSE_NUMBERS + POSE_NUMBERS - 1] ?? -1]),
+    [member.id],
+  );
+  const condition = now.value ?? member.condition;
   return (
     <>
       <span class="swatch" style={{ background: colorOf(member.id, of) }} />

@@ -292,7 +292,10 @@ export class Run {
       this.over.value = update.over;
       this.outcome.value = update.outcome;
       this.poses.value = update.frame ? update.frame.subarray(2) : this.history.at(update.now);
-      this.states.value = update.states;
+      const before = this.states.peek();
+      const isSame =
+        update.states.length === before.length && update.states.every((state, id) => state === before[id]);
+      if (!isSame) this.states.value = update.states;
       this.robots.value = update.robots;
       if (update.fleet) this.fleet.value = update.fleet;
       if (update.world) this.world.value = update.world;
