@@ -51,7 +51,7 @@ pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failur
         &run,
         Circumstances {
             target: arguments.target.clone(),
-            replay: command_line(arguments, scenario.seed),
+            replay: command_line("run", arguments, &[("--seed", &scenario.seed.to_string())]),
             interrupted: stop.load(Ordering::Relaxed),
             wall_seconds,
             threads,
@@ -134,11 +134,11 @@ fn tell(arguments: &RunArguments, report: &Report) -> Result<(), Failure> {
     }
 }
 
-/// A command line that does the same run again.
-fn command_line(arguments: &RunArguments, seed: u64) -> String {
+/// A command line that repeats one run by `starl run`, or by another command that has its options.
+pub fn command_line(name: &str, arguments: &RunArguments, seeds: &[(&str, &str)]) -> String {
     let mut words = vec![
         console::command(),
-        "run".to_string(),
+        name.to_string(),
         quoted(&arguments.target),
     ];
     let mut option = |name: &str, value: &str| {
@@ -151,7 +151,9 @@ fn command_line(arguments: &RunArguments, seed: u64) -> String {
     if let Some(robots) = &arguments.robots {
         option("--robots", robots);
     }
-    option("--seed", &seed.to_string());
+    for (name, value) in seeds {
+        option(name, value);
+    }
     if let Some(duration) = &arguments.duration {
         option("--duration", duration);
     }

@@ -17,12 +17,12 @@ use crate::origin::Origin;
 use crate::outputs::refuse_to_overwrite;
 use crate::picture::Picture;
 use crate::progress::Count;
-use crate::run::stop_on_interrupt;
+use crate::run::{command_line, stop_on_interrupt};
 use crate::target::{self, Selection};
 use output::Outputs;
 use report::{Circumstances, Report};
 use starl_catalog::programs::Registry;
-use starl_sweep::{Axis, Error, Format, Journal, Measured, Plan, Runner, Seeds, execute};
+use starl_sweep::{Axis, Error, Format, Journal, Measured, Plan, Runner, Seeds, Task, execute};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -81,6 +81,7 @@ pub fn sweep(arguments: &SweepArguments, registry: &Registry) -> Result<bool, Fa
         &rows,
         Circumstances {
             title,
+            replay: &|task| replay(arguments, task),
             done_before,
             wall_seconds: begun.elapsed().as_secs_f64(),
             workers: &workers,
@@ -144,6 +145,31 @@ fn plan(
             .filter_map(|path| origin.path(path)),
     );
     Ok((plan, application.scenario().title.clone(), files))
+}
+
+/// The command that repeats the run of a task.
+fn replay(arguments: &SweepArguments, task: &Task) -> String {
+    let given = arguments.changes.set.iter();
+    let is_fixed = |set: &&String| Axis::parse(set).is_ok_and(|axis| !axis.varies());
+    let mut changes = arguments.changes.clone();
+    changes.set = given.filter(is_fixed).cloned().collect();
+    let settings = task.settings.iter();
+    let settings = settings.map(|setting| format!("{}={}", setting.path, setting.value));
+    changes.set.extend(settings);
+    changes.robots = task.robots.clone().or(changes.robots);
+    let run = changes.of(&arguments.target, None, true);
+    let seed = task.seed.to_string();
+    match &task.profile {
+        None => command_line("run", &run, &[("--seed", &seed)]),
+        Some(profile) => {
+            let seeds = [
+                ("--profile", &**profile),
+                ("--first-seed", &seed),
+                ("--seeds", "1"),
+            ];
+            command_line("test", &run, &seeds)
+        }
+    }
 }
 
 /// Prints the errors of programs, each with its lines; the failure sums them up.

@@ -5,7 +5,7 @@ use crate::cluster::Workers;
 use crate::console::{command, counted, grouped, rounded};
 use crate::run::quoted;
 use serde::Serialize;
-use starl_sweep::{Axis, Combination, Interval, Journal, Measured, Plan, Summary};
+use starl_sweep::{Axis, Combination, Interval, Journal, Measured, Plan, Row, Summary, Task};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -32,13 +32,28 @@ pub struct Report {
     pub out: Option<PathBuf>,
     pub journal: Option<PathBuf>,
     pub plot: Option<PathBuf>,
+    /// The first run that violated a property, and the first that failed.
+    pub failures: Vec<Example>,
     #[serde(flatten)]
     pub summary: Summary,
+}
+
+/// A run that violated a property or failed.
+#[derive(Debug, Serialize)]
+pub struct Example {
+    pub number: u64,
+    pub seed: u64,
+    /// The properties that it violated; none if it failed.
+    pub violated: Vec<String>,
+    /// The command that repeats it.
+    pub replay: String,
 }
 
 /// The part of a report that the rows do not tell.
 pub struct Circumstances<'a> {
     pub title: String,
+    /// The command that repeats a task.
+    pub replay: &'a dyn Fn(&Task) -> String,
     pub done_before: u64,
     pub wall_seconds: f64,
     pub workers: &'a Workers,
@@ -70,6 +85,7 @@ impl Report {
             journal: around.out.as_deref().map(Journal::path_of),
             out: around.out.filter(|_| is_whole),
             plot: around.plot.filter(|_| is_whole),
+            failures: examples(plan, rows, around.replay),
             summary: Summary::of(plan, rows),
         }
     }
@@ -106,6 +122,16 @@ impl Report {
             if count > 0 {
                 writeln!(text, "{} {what}", counted(count as usize, "run"))?;
             }
+        }
+        for Example {
+            violated, replay, ..
+        } in &self.failures
+        {
+            let what = match violated.is_empty() {
+                true => "the first that failed".to_string(),
+                false => format!("the first that violated {}", violated.join(" and ")),
+            };
+            writeln!(text, "  {what}: {replay}")?;
         }
         let runs = counted((self.runs_done - self.runs_done_before) as usize, "run");
         let per_second =
@@ -220,4 +246,25 @@ pub fn interval(combination: &Combination, metric: Shown) -> Option<Interval> {
         }),
         Shown::Mean(metric) => combination.metrics.get(metric.name).copied().flatten(),
     }
+}
+
+/// The first run that violated a property, and the first that failed.
+fn examples(
+    plan: &Plan,
+    rows: &BTreeMap<u64, Measured>,
+    replay: &dyn Fn(&Task) -> String,
+) -> Vec<Example> {
+    let first = |is: &dyn Fn(&Row) -> bool| {
+        let mut rows = rows.values().map(|measured| &measured.row);
+        rows.find(|row| is(row))
+    };
+    let violated = first(&|row| !row.violated.is_empty());
+    let failed = first(&|row| row.outcome == "failed" && row.violated.is_empty());
+    let example = |row: &Row| Example {
+        number: row.number,
+        seed: row.seed,
+        violated: row.violated.clone(),
+        replay: replay(&plan.task(row.number)),
+    };
+    violated.into_iter().chain(failed).map(example).collect()
 }

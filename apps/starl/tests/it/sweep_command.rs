@@ -359,6 +359,53 @@ fn programs_and_their_parameters_are_axes() {
 }
 
 #[test]
+fn the_first_run_that_violates_a_property_is_named_with_the_command_that_repeats_it() {
+    let folder = folder("sweep_violation");
+    let program = "program Waiter\n\nparam pause: Int in 1..9\n\nwait()\n    pre true for 1s * pause\n    eff finish()\n\neventually soon: forall r: r.finished within 2s\n";
+    file(&folder, "waiter.starl", program);
+    let scenario = support::SMALL.replacen("\"race\"", "\"waiter.starl\"", 1);
+    file(&folder, "small.toml", &scenario);
+    let sweep = [
+        "sweep",
+        "small.toml",
+        "--set",
+        "parameters.pause=1..3:2",
+        "--set",
+        "fleet=2,3",
+        "--set",
+        "network.loss=10%",
+        "--seeds",
+        "7..8",
+        "--out",
+        "rows.jsonl",
+    ];
+    for profile in [&[][..], &["--profile", "lossy"]] {
+        let report = json(&starl(
+            &folder,
+            &[&sweep[..], profile, &["--json"]].concat(),
+        ));
+        let failures = report["failures"].as_array().expect("a list");
+        assert_eq!(failures.len(), 1, "{failures:?}");
+        let failure = &failures[0];
+        assert_eq!(failure["violated"], serde_json::json!(["Waiter.soon"]));
+        assert_eq!(
+            (&failure["number"], &failure["seed"]),
+            (&4.into(), &7.into())
+        );
+        let replay = failure["replay"].as_str().expect("a text");
+        let words: Vec<&str> = replay.split(' ').skip(1).chain(["--json"]).collect();
+        let again = json(&starl(&folder, &words));
+        let rows = rows(&fs::read(folder.join("rows.jsonl")).expect("it was written"));
+        match profile.is_empty() {
+            true => assert_eq!(again["digest"], rows[4]["digest"], "{replay}"),
+            false => assert_eq!(again["targets"][0]["profiles"][0]["violated"], 1, "{again}"),
+        }
+        fs::remove_file(folder.join("rows.jsonl")).expect("it was there");
+        fs::remove_file(folder.join("rows.jsonl.journal")).expect("it was there");
+    }
+}
+
+#[test]
 fn the_plot_has_axes_and_a_line_for_each_value_of_the_second_axis() {
     let folder = prepared("sweep_plot");
     let arguments = with(&["--plot", "plot.svg", "--metric", "messages_sent,goal"]);
