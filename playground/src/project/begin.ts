@@ -6,7 +6,7 @@ import { run } from "../app/context.ts";
 import { openExample } from "../gallery/examples.ts";
 import { keepChecking } from "./checking.ts";
 import { returning } from "./project.ts";
-import { runProject } from "./running.ts";
+import { runProject, starting } from "./running.ts";
 
 export async function begin(): Promise<void> {
   keepChecking();
@@ -17,8 +17,9 @@ export async function begin(): Promise<void> {
     await openExample(example, { play: false });
   } else if (returning) {
     benchTab.value = "program";
-    // Unfinished input causes no message.
-    if (!(await runProject({ play: false }))) run.problem.value = null;
+    // A person may have pressed Run already. Unfinished input causes no message.
+    if (!starting.value && !run.opened.value && !(await runProject({ play: false })))
+      run.problem.value = null;
   } else {
     // A small screen shows one part at a time, and there is no run to see yet.
     part.value = "write";

@@ -25,9 +25,19 @@ export function drawSeed(): void {
   seed.value = String(1 + Math.floor(Math.random() * 999_999));
 }
 
-/** Opens the project's run, and plays it unless told otherwise. */
-export async function runProject({ play = true } = {}): Promise<boolean> {
-  if (starting.value) return false;
+let before: Promise<unknown> = Promise.resolve();
+let latest = 0;
+
+/** Opens the project's run, and plays it unless told otherwise. While a run starts, the last request waits. */
+export function runProject({ play = true } = {}): Promise<boolean> {
+  const request = ++latest;
+  starting.value = true;
+  const opened = before.then(() => request === latest && start(play));
+  before = opened;
+  return opened;
+}
+
+async function start(play: boolean): Promise<boolean> {
   starting.value = true;
   try {
     const shown = project.value;

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { site, tab, useBrowser, visit } from "./support.mjs";
+import { revisit, site, tab, useBrowser, visit } from "./support.mjs";
 
 useBrowser();
 
@@ -52,6 +52,17 @@ test("an example opens with its files and runs", async () => {
   await page.waitForFunction(() => parseFloat(document.querySelector(".clock").textContent) > 0.2);
   assert.deepEqual(faults(), []);
   await context.close();
+});
+
+test("Run works while the page still opens the last project", async () => {
+  const files = { "hello.starl": "program Hello\n\ngo()\n    pre false\n    eff finish()\n" };
+  for (let visits = 0; visits < 5; visits++) {
+    const { page, context, errors } = await revisit(site.url, { name: "Hello", files, scenario: null });
+    await page.getByRole("button", { name: "Run", exact: true }).click();
+    await page.waitForFunction(() => parseFloat(document.querySelector(".clock")?.textContent) > 0.2);
+    assert.deepEqual(errors, []);
+    await context.close();
+  }
 });
 
 test("the gallery shows the tasks for learning with their code", async () => {
