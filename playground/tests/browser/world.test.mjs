@@ -9,18 +9,22 @@ useBrowser();
 test("the view of the world stands still when nothing happens, and measures with two clicks", async () => {
   const { page, context, errors } = await visit(`${site.url}?example=race`);
   await page.getByRole("button", { name: "From above" }).click();
-  await page.waitForTimeout(1500);
-  const frames = await page.evaluate(async () => {
-    let count = 0;
-    const clear = CanvasRenderingContext2D.prototype.clearRect;
-    CanvasRenderingContext2D.prototype.clearRect = function (...box) {
-      count++;
-      return clear.apply(this, box);
-    };
-    await new Promise((resolve) => setTimeout(resolve, 1000));
-    return count;
-  });
-  assert.equal(frames, 0, "no picture without a change");
+  const frames = () =>
+    page.evaluate(async () => {
+      let count = 0;
+      const clear = CanvasRenderingContext2D.prototype.clearRect;
+      CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+        count++;
+        return clear.apply(this, box);
+      };
+      await new Promise((resolve) => setTimeout(resolve, 1000));
+      CanvasRenderingContext2D.prototype.clearRect = clear;
+      return count;
+    });
+  // A slow machine still loads parts of the page at first.
+  let seen = await frames();
+  for (let tries = 0; tries < 20 && seen > 0; tries++) seen = await frames();
+  assert.equal(seen, 0, "no picture without a change");
 
   await page.getByRole("button", { name: "Measure" }).click();
   await page.getByText("Click the first place.").waitFor();
