@@ -48,7 +48,7 @@ test("Race runs from a cold page to its goal, with the digest of the command, an
 });
 
 /** This much is 1.5 MB by Brotli, which takes too long to compute here: tests/speed.mjs does. */
-const MOST_BYTES = 6_150_000;
+const MOST_BYTES = 6_000_000;
 
 test("a first visit is small: it loads neither the painter of runs nor the editor", async () => {
   const { page, context } = await visit("about:blank");
