@@ -8,12 +8,14 @@
 
 use super::bodies::{Sweep, gap};
 use super::passing::{self, Passing, Way};
+use super::track::DEVIATIONS;
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use starl_core::event::{Event, Fault, Hit};
 use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_core::motion::Body;
 use starl_core::{Duration, Intervention, Obstacle, Point, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::SQRT_2;
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
@@ -41,6 +43,9 @@ const EDGE: &str = "the edge of the world";
 #[derive(Clone, Debug)]
 pub(super) struct NoCollision {
     bodies: Vec<Body>,
+    /// Overlaps of a body with an obstacle are to be greater than this, metres, and with another body.
+    overlap: f64,
+    overlap_of_pairs: f64,
     obstacles: Arc<ObstacleIndex>,
     /// When each obstacle vanishes.
     expires: Arc<[Time]>,
@@ -100,7 +105,14 @@ impl NoCollision {
         let robots = setting.bodies.len();
         let (obstacles, expires): (Vec<Obstacle>, Vec<Time>) =
             setting.obstacles.iter().cloned().unzip();
+        // Outside simulators poses are measured.
+        let error = match setting.simulated {
+            true => 0.0,
+            false => DEVIATIONS * setting.position_noise,
+        };
         NoCollision {
+            overlap: OVERLAP + error,
+            overlap_of_pairs: OVERLAP + SQRT_2 * error,
             bodies: setting.bodies.clone(),
             obstacles: Arc::new(ObstacleIndex::new(&obstacles)),
             edges: expires.len() - setting.walls.min(expires.len())..expires.len(),
@@ -267,7 +279,10 @@ impl NoCollision {
                 continue;
             };
             let gap = obstacle.body_gap(position, body.radius, body.height);
-            if gap < APART && self.touch(RobotId(place as u32), index, position) && gap < -OVERLAP {
+            if gap < APART
+                && self.touch(RobotId(place as u32), index, position)
+                && gap < -self.overlap
+            {
                 self.excused.note(NO_COLLISION, Excuse::Obstacle);
             }
         }
@@ -352,7 +367,7 @@ impl NoCollision {
         let _ = map.for_each_near(&around, |index| {
             let gap = gap(index).unwrap_or(f64::INFINITY);
             let stands = at <= self.expires[index as usize];
-            if gap < -OVERLAP && stands && self.touch(robot, index, position) {
+            if gap < -self.overlap && stands && self.touch(robot, index, position) {
                 if self.falls(robot, at) {
                     self.excused.note(NO_COLLISION, Excuse::Fall);
                     return ControlFlow::Continue(());
@@ -388,7 +403,7 @@ impl NoCollision {
             (Some(p), Some(q)) => gap((&bodies[a.index()], p), (&bodies[b.index()], q)) < APART,
             _ => true,
         });
-        sweep.overlaps(bodies, poses, OVERLAP, |a, b, gap| {
+        sweep.overlaps(bodies, poses, self.overlap_of_pairs, |a, b, gap| {
             if !pairs.insert((a, b)) {
                 return;
             }
@@ -408,7 +423,7 @@ impl NoCollision {
             }
         });
         let (ended, ways) = self.passing.close(*at, poses, bodies);
-        passing::pairs(&ways, OVERLAP, |a, b, depth| {
+        passing::pairs(&ways, self.overlap_of_pairs, |a, b, depth| {
             if !falls(a.robot) && !falls(b.robot) && pairs.insert((a.robot, b.robot)) {
                 found.push(Violation {
                     property: NO_COLLISION.into(),
@@ -436,7 +451,7 @@ impl NoCollision {
         let _ = map.for_each_near(&way.bounds(), |index| {
             let depth = way.into(&map.obstacles()[index as usize]);
             let stands = ended <= self.expires[index as usize];
-            if depth < -OVERLAP && stands && self.touch(way.robot, index, way.to) {
+            if depth < -self.overlap && stands && self.touch(way.robot, index, way.to) {
                 found.push(Violation {
                     property: NO_COLLISION.into(),
                     at: ended,

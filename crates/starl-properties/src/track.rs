@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 
 /// Standard deviations of positioning noise that are put down to chance. One estimate in ten million
 /// is farther off.
-const DEVIATIONS: f64 = 6.0;
+pub(super) const DEVIATIONS: f64 = 6.0;
 
 /// No body here speeds up faster than a falling one, metres per second squared.
 const FASTEST_ACCELERATION: f64 = 9.81;

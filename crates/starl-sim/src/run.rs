@@ -211,7 +211,6 @@ impl Run {
     pub fn setting(&self) -> Setting {
         Setting {
             monitored: self.watch.monitored().collect(),
-            simulated: true,
             ..setting(self.simulation.scenario())
         }
     }
@@ -240,7 +239,8 @@ impl Failure {
     }
 }
 
-/// The setting of a scenario: bodies, obstacles and the checks.
+/// The setting of a simulated run: bodies, obstacles and the checks. For records of another host, say so in
+/// [`Setting::simulated`].
 pub fn setting(scenario: &Scenario) -> Setting {
     let groups = &scenario.fleet.groups;
     let body = |group: &Group| vec![group.model.body(); group.starts.len()];
@@ -262,7 +262,7 @@ pub fn setting(scenario: &Scenario) -> Setting {
         keeps_storage: scenario.storage.kept,
         only: None,
         unrecorded: Vec::new(),
-        simulated: false,
+        simulated: true,
         position_noise: scenario.positioning.position_noise,
         clock_drift: drifts.fold(0.0, f64::max) * 1e-6,
     }

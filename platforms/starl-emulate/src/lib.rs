@@ -36,4 +36,4 @@ mod service;
 pub mod vrpn;
 pub mod world;
 
-pub use world::{AddError, BodyHandle, Noise, Odometer, World};
+pub use world::{AddError, BodyHandle, Noise, Odometer, Touch, World};

@@ -34,13 +34,16 @@ use std::time::Duration;
 /// Emulates devices until someone presses Ctrl-C.
 pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Failure> {
     let stop = stop_on_interrupt();
+    let mut shared = None;
     let devices = match arguments {
         EmulateArguments::Fleet(arguments) => {
             if arguments.supervised {
                 let stop = stop.clone();
                 when_abandoned(move || stop.store(true, Ordering::Relaxed));
             }
-            fleet(arguments, registry)?
+            let (world, devices) = fleet(arguments, registry)?;
+            shared = Some(world);
+            devices
         }
         EmulateArguments::Create { link, generation } => {
             let generation = if *generation == 1 {
@@ -95,12 +98,17 @@ pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Fa
     console::print("ready\n")?;
     while !stop.load(Ordering::Relaxed) {
         std::thread::sleep(Duration::from_millis(50));
+        for touch in shared.iter().flat_map(World::take_touches) {
+            let with = touch.with.as_deref().unwrap_or("an obstacle");
+            let (at, body, place) = (touch.at.seconds(), touch.body, touch.place);
+            console::print(&format!("{at:10.3} {body} ran into {with} near {place}\n"))?;
+        }
     }
     Ok(true)
 }
 
 /// All devices that a fleet file names, in the world of its scenario.
-fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>, Failure> {
+fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<(World, Vec<Emulated>), Failure> {
     let fleet = Fleet::read(&arguments.fleet, None, true, registry)?;
     let scenario = fleet.application.scenario();
     let obstacles = scenario.world.obstacles.iter();
@@ -134,7 +142,7 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
             &fleet.path,
             "names no device that could be emulated: all robots are simulated; with `world = \"127.0.0.1:7500\"` their bodies are",
         )),
-        false => Ok(emulated),
+        false => Ok((world, emulated)),
     }
 }
 

@@ -14,6 +14,7 @@ use starl_core::event::{Event, Fault, Level};
 use starl_core::{Record, RobotId, Time, Value};
 use starl_node::Operator;
 use starl_node::link::frame::Seen;
+use starl_properties::Setting;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
@@ -50,7 +51,10 @@ impl Follower {
     /// Passes on a trace, piece by piece, until its receiver refuses.
     pub fn run(mut self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> Result<(), Failure> {
         let application = &self.fleet.application;
-        let setting = starl_sim::setting(application.scenario());
+        let setting = Setting {
+            simulated: false,
+            ..starl_sim::setting(application.scenario())
+        };
         let header = recording::header(application.resolved(), &setting);
         let mut stream = Stream::new(&header).map_err(|error| Failure(error.to_string()))?;
         for (robot, start) in starts(&self.fleet) {

@@ -55,6 +55,7 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
     let path = folder.next_trace(&member.name);
     let setting = Setting {
         only: Some(member.id),
+        simulated: false,
         ..starl_sim::setting(scenario)
     };
     let trace = TraceOutput::create(&path, fleet.application.resolved(), &setting, true)?;

@@ -17,6 +17,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Robots are asked how they are this often.
@@ -56,7 +57,7 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
         None => scenario.duration,
     };
     let stop = stop_on_interrupt();
-    let _emulator = arguments
+    let emulator = arguments
         .emulate
         .then(|| emulator(&arguments.fleet))
         .transpose()?;
@@ -74,6 +75,7 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
         stop::halt(&fleet, &mut operator);
     }
     robots.end();
+    let touches = emulator.map_or(0, Emulator::end);
     let out = folder.0.join("merged.mcap");
     let merged = merge(&fleet, &folder, &out)?;
     console::print(&merged.text(&fleet, &out))?;
@@ -84,7 +86,13 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
         },
         registry,
     )?;
-    Ok(judged && (is_reached || !ends_when_finished))
+    // The emulator knows the true poses, which are not on record.
+    let is_clear = touches == 0 || !scenario.properties.no_collision;
+    if !is_clear {
+        let times = console::counted(touches, "time");
+        console::complain(&format!("emulated robots ran into something {times}\n"));
+    }
+    Ok(judged && is_clear && (is_reached || !ends_when_finished))
 }
 
 /// Prints the processes to start, with their machines.
@@ -107,12 +115,25 @@ fn print(arguments: &FleetUpArguments, fleet: &Fleet) -> Result<bool, Failure> {
 }
 
 /// A process that emulates the fleet's devices until this is dropped.
-struct Emulator(Child);
+struct Emulator {
+    process: Child,
+    /// Passes on what it says, which is what has run into what; gives the number of lines at its end.
+    listener: Option<JoinHandle<usize>>,
+}
+
+impl Emulator {
+    /// Ends the process; how often its robots ran into something.
+    fn end(mut self) -> usize {
+        let listener = self.listener.take();
+        drop(self);
+        listener.and_then(|it| it.join().ok()).unwrap_or(0)
+    }
+}
 
 impl Drop for Emulator {
     fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        let _ = self.process.kill();
+        let _ = self.process.wait();
     }
 }
 
@@ -126,14 +147,24 @@ fn emulator(fleet: &Path) -> Result<Emulator, Failure> {
         .args(["emulate", "fleet", "--supervised"])
         .arg(fleet);
     command.stdin(Stdio::piped()).stdout(Stdio::piped());
-    let mut emulator = Emulator(command.spawn().map_err(|error| cannot(&error))?);
-    let output = emulator.0.stdout.take().into_iter();
+    let mut emulator = Emulator {
+        process: command.spawn().map_err(|error| cannot(&error))?,
+        listener: None,
+    };
+    let output = emulator.process.stdout.take().into_iter();
     let mut lines = output.flat_map(|output| BufReader::new(output).lines());
     // It has said why, if it ends before.
-    match lines.any(|line| line.is_ok_and(|line| line == "ready")) {
-        true => Ok(emulator),
-        false => Err(Failure("the devices cannot be emulated".to_string())),
+    if !lines.any(|line| line.is_ok_and(|line| line == "ready")) {
+        return Err(Failure("the devices cannot be emulated".to_string()));
     }
+    let listen = move || {
+        let touches = lines.map_while(Result::ok);
+        touches
+            .inspect(|touch| console::complain(&format!("{touch}\n")))
+            .count()
+    };
+    emulator.listener = Some(std::thread::spawn(listen));
+    Ok(emulator)
 }
 
 /// This command, to be started again.

@@ -3,6 +3,7 @@
 use crate::support::{self, FLYER, GROUND, Story, assert_none, assert_only, at};
 use starl_core::event::Hit;
 use starl_core::{Event, Intervention, Obstacle, Point, Pose, Random, RobotId};
+use std::f64::consts::SQRT_2;
 
 const WITH_ROBOT_1: Hit = Hit::Robot(RobotId(1));
 
@@ -96,6 +97,30 @@ fn bodies_that_just_touch_do_not_overlap() {
     nearer.stays(0, 1000, 0, at(0.0, 0.0));
     nearer.stays(0, 1000, 1, at(0.3985, 0.0));
     assert_only(&nearer.verdict(1000), "no_collision", 0, &[0, 1]);
+}
+
+#[test]
+fn measured_poses_overlap_only_beyond_their_error() {
+    for (simulated, depth, collides) in [
+        (true, 0.02, true),
+        (false, 0.02, false),
+        (false, 0.04, true),
+    ] {
+        let measured = |mut story: Story| {
+            story.setting.position_noise = 0.005;
+            story.setting.simulated = simulated;
+            story.verdict(1000)
+        };
+        let mut wall = Story::of_ground_robots(1);
+        pillar(&mut wall, 3.0, u64::MAX / 1_000_000);
+        wall.stays(0, 1000, 0, at(2.3 + depth, 0.0));
+        assert_eq!(measured(wall).is_empty(), !collides, "{depth}");
+        // Both poses of a pair have errors.
+        let mut pair = Story::of_ground_robots(2);
+        pair.stays(0, 1000, 0, at(0.0, 0.0));
+        pair.stays(0, 1000, 1, at(0.4 - SQRT_2 * depth, 0.0));
+        assert_eq!(measured(pair).is_empty(), !collides, "{depth}");
+    }
 }
 
 #[test]

@@ -27,6 +27,8 @@ pub(super) struct Body {
     odometer: Odometer,
     /// Unit vector towards what the body touches, world frame.
     touched: Option<Point>,
+    /// The world's time of the last step in which something stopped it.
+    pub touched_at: Option<Duration>,
 }
 
 impl Body {
@@ -38,6 +40,7 @@ impl Body {
             command: Command::Stop,
             odometer: Odometer::default(),
             touched: None,
+            touched_at: None,
         }
     }
 

@@ -8,11 +8,12 @@ mod body;
 pub use body::{BodyHandle, Odometer};
 
 use body::Body;
+use starl_core::event::Hit;
 use starl_core::geometry::ObstacleIndex;
-use starl_core::{Duration, Obstacle, Pose, Random, RobotId};
-use starl_motion::contact::{Contacts, Grid, Motions};
+use starl_core::{Duration, Obstacle, Point, Pose, Random, RobotId};
+use starl_motion::contact::{Contact, Contacts, Grid, Motions};
 use starl_motion::proximity::{Rays, Scene};
-use starl_motion::{Disturbance, Impact, Model, Neighbour, State};
+use starl_motion::{Disturbance, Model, Neighbour, State};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
 use std::time::Instant;
@@ -23,6 +24,9 @@ pub const STEP: Duration = Duration::from_millis(10);
 
 /// The most time that the world makes up for when its thread was held up.
 pub const CATCH_UP: Duration = Duration::from_millis(250);
+
+/// A body that touches something again within this time has not been away from it.
+const SAME_TOUCH: Duration = Duration::from_millis(500);
 
 /// How the motion of bodies errs from their commands: standard deviations relative to the speed, drawn for each step.
 /// Wheels slip so; [`BodyHandle::odometer`] does not see it.
@@ -56,6 +60,19 @@ pub enum AddError {
     Blocked(String),
 }
 
+/// A body that moved freely has run into something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Touch {
+    /// The world's time.
+    pub at: Duration,
+    /// The body's name.
+    pub body: String,
+    /// The other body; none for an obstacle.
+    pub with: Option<String>,
+    /// Where the body is stopped.
+    pub place: Point,
+}
+
 /// A floor with obstacles and the bodies on and above it. Clones share the same floor.
 #[derive(Clone, Debug)]
 pub struct World {
@@ -70,6 +87,7 @@ struct Floor {
     noise: Noise,
     bodies: Vec<Body>,
     steps: u64,
+    touches: Vec<Touch>,
 }
 
 impl World {
@@ -88,6 +106,7 @@ impl World {
             noise,
             bodies: Vec::new(),
             steps: 0,
+            touches: Vec::new(),
         }));
         let floor = Arc::downgrade(&shared);
         thread::spawn(move || keep_time(&floor));
@@ -124,6 +143,12 @@ impl World {
         poses
             .map(|body| (body.name.clone(), body.state.pose))
             .collect()
+    }
+
+    /// The touches since the last call, in the order of time. Two bodies that run into each other are one
+    /// touch.
+    pub fn take_touches(&self) -> Vec<Touch> {
+        std::mem::take(&mut lock(&self.shared).touches)
     }
 
     /// The world's time: how long its bodies have moved.
@@ -177,11 +202,43 @@ impl Floor {
             .zip(&self.bodies)
             .map(|(index, body)| body.predict(&self.disturbance(index)))
             .collect();
-        let impacts = self.impacts(&predicted);
-        for ((body, predicted), impact) in self.bodies.iter_mut().zip(predicted).zip(impacts) {
-            body.advance(&predicted, impact);
+        let contacts = self.contacts(&predicted);
+        self.note_touches(&contacts);
+        for ((body, predicted), contact) in self.bodies.iter_mut().zip(predicted).zip(contacts) {
+            body.advance(&predicted, contact.map(|contact| contact.impact));
         }
         self.steps += 1;
+    }
+
+    fn note_touches(&mut self, contacts: &[Option<Contact>]) {
+        let at = self.elapsed();
+        for (index, contact) in contacts.iter().enumerate() {
+            let Some(contact) = contact else {
+                continue;
+            };
+            let body = &self.bodies[index];
+            let (is_told_by_other, other) = match contact.with {
+                Hit::Obstacle(_) => (false, None),
+                Hit::Robot(other) => {
+                    let other = other.index();
+                    let back = contacts[other].map(|contact| contact.with);
+                    let is_mutual = back == Some(Hit::Robot(RobotId(index as u32)));
+                    (is_mutual && other < index, Some(&self.bodies[other]))
+                }
+            };
+            let touch = Touch {
+                at,
+                body: body.name.clone(),
+                with: other.map(|other| other.name.clone()),
+                place: contact.impact.place,
+            };
+            let body = &mut self.bodies[index];
+            let before = body.touched_at.replace(at);
+            let is_new = before.is_none_or(|before| at.0 - before.0 > SAME_TOUCH.0);
+            if is_new && !is_told_by_other {
+                self.touches.push(touch);
+            }
+        }
     }
 
     /// Whether a body would overlap an obstacle or another body.
@@ -205,7 +262,7 @@ impl Floor {
     }
 
     /// For each body the contact that stops it on its way to the predicted state.
-    fn impacts(&self, predicted: &[State]) -> Vec<Option<Impact>> {
+    fn contacts(&self, predicted: &[State]) -> Vec<Option<Contact>> {
         let (bodies, grid) = self.indexed();
         let next: Vec<_> = predicted.iter().map(|state| state.pose.position).collect();
         let standing: Vec<u32> = (0..).take(self.map.obstacles().len()).collect();
@@ -219,9 +276,10 @@ impl Floor {
         motions.first_contacts(grid.entries(), &mut found);
         let mut contacts = Contacts::default();
         contacts.settle(&motions, found);
-        let contact = |body| contacts.of(RobotId(body));
         let bodies = 0..bodies.len() as u32;
-        bodies.map(|body| Some(contact(body)?.impact)).collect()
+        bodies
+            .map(|body| contacts.of(RobotId(body)).copied())
+            .collect()
     }
 
     fn disturbance(&self, index: u64) -> Disturbance {

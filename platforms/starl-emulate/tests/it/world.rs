@@ -38,9 +38,18 @@ fn robots_that_meet_stop_and_press_their_bumpers() {
     // The wheels have turned all the time.
     assert!(left.odometer().distance > 0.35, "{:?}", left.odometer());
 
+    let touches = world.take_touches();
+    assert_eq!(touches.len(), 1, "{touches:?}");
+    let told = [Some(touches[0].body.as_str()), touches[0].with.as_deref()];
+    assert!(
+        told.contains(&Some("left")) && told.contains(&Some("right")),
+        "{touches:?}"
+    );
+
     left.command(straight(-0.5));
     sleep(Duration::from_millis(200));
     assert_eq!(left.bumper(), None);
+    assert!(world.take_touches().is_empty());
 }
 
 #[test]
