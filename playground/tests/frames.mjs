@@ -39,7 +39,7 @@ const { page, errors } = await revisit(site.url, project, options);
 await page.locator(".play:enabled").waitFor({ timeout: 60_000 });
 await page.locator(".play").click();
 await page.waitForTimeout(5000);
-await browser.startTracing(page, { categories: ["toplevel", "devtools.timeline"] });
+await browser.startTracing(page, { categories: ["toplevel", "blink"] });
 await page.waitForTimeout(SECONDS * 1000);
 const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
 const clock = await page.locator(".clock").textContent();
@@ -49,7 +49,7 @@ const main = traceEvents.find(({ name, args }) => name === "thread_name" && args
 const on = traceEvents
   .filter(({ pid, tid }) => pid === main.pid && tid === main.tid)
   .sort((one, other) => one.ts - other.ts);
-const pictures = on.filter(({ name }) => name === "FireAnimationFrame").map(({ ts }) => ts);
+const pictures = on.filter(({ name }) => name === "WebFrameWidgetImpl::BeginMainFrame").map(({ ts }) => ts);
 /** Processor time of the tasks from each picture to the next, ms. */
 const work = pictures.slice(1).map(() => 0);
 let at = -1;

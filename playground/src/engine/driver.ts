@@ -20,6 +20,8 @@ import {
 /** Time of the processor that a slice takes, and the pause after it in which the page is heard, ms. */
 const SLICE = 12;
 const BREATH = 4;
+/** The least time from one slice to the next, ms: no screen shows more pictures than one in this time. */
+const PICTURE = 15;
 /** While the run is not shown in its own pace, the least time between updates, ms. */
 const REPORT_EVERY = 500;
 
@@ -197,7 +199,7 @@ export class Driver {
       this.#pace = (this.#status.now - this.#paceFrom.simulated) / ((real - this.#paceFrom.real) / 1000);
       if (real - this.#paceFrom.real > 1000) this.#paceFrom = { real, simulated: this.#status.now };
       await this.#exclusive(() => this.#update(this.#playing !== playing, stopped));
-      await breath();
+      await breath(Math.max(BREATH, PICTURE - (performance.now() - began)));
     }
   }
 
@@ -314,7 +316,7 @@ export class Driver {
   }
 }
 
-const breath = () => new Promise((resolve) => setTimeout(resolve, BREATH));
+const breath = (ms = BREATH) => new Promise((resolve) => setTimeout(resolve, ms));
 
 function changed<Value>(value: Value, before: string): [Value | null, string] {
   const now = JSON.stringify(value);

@@ -2,7 +2,7 @@
 
 import { signal } from "@preact/signals";
 import { run } from "../app/context.ts";
-import { end } from "../timeline/Transport.tsx";
+import { end } from "../timeline/clock.ts";
 
 /** px */
 export const AXIS = 62;

@@ -8,9 +8,9 @@ import { seconds } from "../app/format.ts";
 import { theme } from "../app/theme.ts";
 import { nameOf } from "../inspect/names.ts";
 import type { Event } from "../run/events.ts";
+import { clock, end } from "./clock.ts";
 import { describe, LANES } from "./lanes.ts";
 import { first, Marks } from "./marks.ts";
-import { end } from "./Transport.tsx";
 
 const LANE_HEIGHT = 11;
 const TOP = 4;
@@ -49,6 +49,13 @@ export function Timeline() {
     else drawn.current.later = window.setTimeout(redraw, wait);
   });
   useEffect(() => () => clearTimeout(drawn.current.later), []);
+
+  const line = useRef<HTMLDivElement>(null);
+  useSignalEffect(() => {
+    const part = run.now.value / Math.max(1e-9, end());
+    // Moved without a new layout of the page.
+    if (line.current) line.current.style.transform = `translateX(${100 * part}%)`;
+  });
 
   const timeAt = (event: PointerEvent) => {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
@@ -94,8 +101,8 @@ export function Timeline() {
           aria-label="Moment of the run"
           aria-valuemin={0}
           aria-valuemax={Number(end().toFixed(2))}
-          aria-valuenow={Number(run.now.value.toFixed(2))}
-          aria-valuetext={seconds(run.now.value)}
+          aria-valuenow={Number(clock.value.time.toFixed(2))}
+          aria-valuetext={seconds(clock.value.time)}
           onPointerDown={onPointerDown}
           onPointerMove={onPointerMove}
           onPointerLeave={() => {
@@ -103,7 +110,9 @@ export function Timeline() {
           }}
           onKeyDown={onKeyDown}
         />
-        <div class="now" style={{ left: `${(100 * run.now.value) / Math.max(1e-9, end())}%` }} />
+        <div class="over-strip">
+          <div ref={line} class="now" />
+        </div>
         {hint.value && (
           <div class="hint" style={{ left: `${hint.value.x}px` }}>
             {hint.value.text}

@@ -3,6 +3,7 @@
 import { useEffect } from "preact/hooks";
 import { run } from "../app/context.ts";
 import { seconds } from "../app/format.ts";
+import { clock, end } from "./clock.ts";
 import { Back, Forward, ToEnd, ToStart } from "./icons.tsx";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, Infinity];
@@ -94,11 +95,11 @@ export function Transport() {
         </select>
       </label>
       <output class="clock" aria-live="off">
-        {seconds(run.now.value)}
+        {seconds(clock.value.time)}
         {run.opened.value && <span class="muted"> of {seconds(end(), end() < 10 ? 2 : 0)}</span>}
       </output>
-      {run.playing.value && run.pace.value > 0 && (
-        <span class="muted pace">{run.pace.value.toPrecision(2)} times real time</span>
+      {run.playing.value && clock.value.pace > 0 && (
+        <span class="muted pace">{clock.value.pace.toPrecision(2)} times real time</span>
       )}
       {over && run.outcome.value && (
         <span class={`outcome ${run.outcome.value}`}>{OUTCOMES[run.outcome.value]}</span>
@@ -114,11 +115,6 @@ const OUTCOMES = {
   timed_out: "Time is over",
   failed: "Program failed",
 };
-
-/** How long the timeline is, s: until the end is known, as long as the run may last. */
-export function end(): number {
-  return run.ended.value ?? Math.max(run.opened.value?.duration ?? 0, run.known.value);
-}
 
 function setSpeed(speed: number): void {
   if (run.playing.value) run.play(speed);

@@ -62,7 +62,9 @@ export class Labels {
     robot: number,
     always: boolean,
   ): boolean {
-    const [x = 0, y = 0, scale = 0] = screen.subarray(robot * 3, robot * 3 + 3);
+    const x = screen[robot * 3] ?? 0;
+    const y = screen[robot * 3 + 1] ?? 0;
+    const scale = screen[robot * 3 + 2] ?? 0;
     const condition = scene.poses[robot * POSE_NUMBERS + POSE_NUMBERS - 1] ?? LEFT;
     const member = scene.fleet[robot];
     if (scale === 0 || condition === LEFT || !member) return false;

@@ -83,7 +83,10 @@ export class Overlay {
       const at = robot * POSE_NUMBERS;
       const scale = this.#screen[robot * 3 + 2] ?? 0;
       if (scale === 0) continue;
-      const [x, y, z, yaw] = [poses[at + 6] ?? 0, poses[at + 7] ?? 0, poses[at + 8] ?? 0, poses[at + 9] ?? 0];
+      const x = poses[at + 6] ?? 0;
+      const y = poses[at + 7] ?? 0;
+      const z = poses[at + 8] ?? 0;
+      const yaw = poses[at + 9] ?? 0;
       const off =
         Math.hypot(x - (poses[at] ?? 0), y - (poses[at + 1] ?? 0), z - (poses[at + 2] ?? 0)) * scale;
       const turn = Math.abs(Math.sin((yaw - (poses[at + 3] ?? 0)) / 2)) * 2;

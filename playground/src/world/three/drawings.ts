@@ -6,6 +6,8 @@ import { Lines } from "./lines.ts";
 
 /** Lines of a circle. */
 const SIDES = 36;
+/** Planned paths are drawn so far above the floor, m. */
+const ABOVE_FLOOR = 0.006;
 
 export class Drawings {
   readonly marks = new Lines(3);
@@ -69,10 +71,10 @@ export class Drawings {
         const alpha = chosen.size > 0 && !chosen.has(robot) ? 0.3 : 0.95;
         for (let index = 1; index < path.length; index++) {
           const [from, to] = [path[index - 1], path[index]];
-          if (from && to) this.plans.add(raised(from), raised(to), color, alpha, 3.2, 8);
+          if (from && to) this.plans.add(from, to, color, alpha, 3.2, 8, ABOVE_FLOOR);
         }
         const goal = path.at(-1);
-        if (goal) this.plans.add(raised(goal), raised(goal), color, alpha, 7);
+        if (goal) this.plans.add(goal, goal, color, alpha, 7, 0, ABOVE_FLOOR);
       }
     }
     this.plans.end();
@@ -92,8 +94,6 @@ export class Drawings {
     this.stems.end();
   }
 }
-
-const raised = (point: { x: number; y: number; z: number }) => ({ ...point, z: point.z + 0.006 });
 
 function around(center: { x: number; y: number; z: number }, radius: number, side: number) {
   const angle = (side / SIDES) * 2 * Math.PI;

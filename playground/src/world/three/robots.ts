@@ -119,14 +119,12 @@ function place(
   const yaw = poses[at + 3] ?? 0;
   const pitch = poses[at + 4] ?? 0;
   const roll = (poses[at + 5] ?? 0) + lean;
-  const [cy, sy, cp, sp, cr, sr] = [
-    Math.cos(yaw),
-    Math.sin(yaw),
-    Math.cos(pitch),
-    Math.sin(pitch),
-    Math.cos(roll),
-    Math.sin(roll),
-  ];
+  const cy = Math.cos(yaw);
+  const sy = Math.sin(yaw);
+  const cp = Math.cos(pitch);
+  const sp = Math.sin(pitch);
+  const cr = Math.cos(roll);
+  const sr = Math.sin(roll);
   matrix[to] = cy * cp * size;
   matrix[to + 1] = sy * cp * size;
   matrix[to + 2] = -sp * size;
