@@ -216,28 +216,27 @@ impl Floor {
             let Some(contact) = contact else {
                 continue;
             };
-            let body = &self.bodies[index];
-            let (is_told_by_other, other) = match contact.with {
-                Hit::Obstacle(_) => (false, None),
+            let before = self.bodies[index].touched_at.replace(at);
+            if before.is_some_and(|before| at.0 - before.0 <= SAME_TOUCH.0) {
+                continue;
+            }
+            let with = match contact.with {
+                Hit::Obstacle(_) => None,
                 Hit::Robot(other) => {
-                    let other = other.index();
-                    let back = contacts[other].map(|contact| contact.with);
+                    let back = contacts[other.index()].map(|contact| contact.with);
                     let is_mutual = back == Some(Hit::Robot(RobotId(index as u32)));
-                    (is_mutual && other < index, Some(&self.bodies[other]))
+                    if is_mutual && other.index() < index {
+                        continue;
+                    }
+                    Some(self.bodies[other.index()].name.clone())
                 }
             };
-            let touch = Touch {
+            self.touches.push(Touch {
                 at,
-                body: body.name.clone(),
-                with: other.map(|other| other.name.clone()),
+                body: self.bodies[index].name.clone(),
+                with,
                 place: contact.impact.place,
-            };
-            let body = &mut self.bodies[index];
-            let before = body.touched_at.replace(at);
-            let is_new = before.is_none_or(|before| at.0 - before.0 > SAME_TOUCH.0);
-            if is_new && !is_told_by_other {
-                self.touches.push(touch);
-            }
+            });
         }
     }
 
