@@ -5,12 +5,14 @@
 //! Invariant: each message of an incarnation is delivered at most once, and memory is bounded by the window: messages
 //! further ahead are not accepted, so that their sender sends them again.
 
+use super::Options;
+use super::outgoing::Trying;
 use super::peers::Rest;
 use super::runs::Runs;
 use crate::handshake::Handshake;
 use alloc::collections::BTreeMap;
 use smallvec::SmallVec;
-use starl_core::Payload;
+use starl_core::{Duration, Payload, Time};
 
 /// Messages to deliver, by number.
 pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
@@ -22,6 +24,8 @@ pub(super) struct Inbox {
     pub lives: Handshake<Sequence>,
     /// The pending message to the sender.
     pub owed: Owed,
+    /// When a sender that is not known is asked again which life it has.
+    pub asking: Trying,
 }
 
 /// A receiver's pending message to a sender.
@@ -39,8 +43,33 @@ impl Inbox {
     /// An incarnation answers a token: from now on it is heard, from the message `base` on. False if the
     /// token is not the present one.
     pub fn begin(&mut self, incarnation: u32, token: u32, base: u32) -> bool {
-        self.lives
-            .begin(incarnation, token, || Sequence::from(base))
+        let is_answer = self
+            .lives
+            .begin(incarnation, token, || Sequence::from(base));
+        if is_answer {
+            self.asking = Trying::default();
+        }
+        is_answer
+    }
+
+    /// Prepares the question that follows this one, if its answer does not come: the sender may not repeat a message
+    /// before its time is over. Each asker has a token of its own, and so a time of its own.
+    pub fn ask_again(&mut self, now: Time, token: u32, options: &Options) {
+        let attempt = self.asking.attempt;
+        self.asking.due = (attempt < options.retries).then(|| {
+            let share = f64::from(token) / f64::from(u32::MAX);
+            let factor = 1.0 + options.safe_jitter() * share;
+            now + Duration::from_seconds_f64(options.timeout(attempt).seconds() * factor)
+        });
+        self.asking.attempt = attempt.saturating_add(1);
+    }
+
+    /// When the sender has to be answered or asked; `last` is when it last was.
+    pub fn due(&self, last: Option<Time>, now: Time, options: &Options) -> Option<Time> {
+        match self.owed {
+            Owed::Nothing => self.asking.due,
+            Owed::Taken | Owed::Greeting => Some(options.answer_time(last, now)),
+        }
     }
 }
 
@@ -59,6 +88,7 @@ impl Rest for Inbox {
         Inbox {
             lives: Handshake::hearing(incarnation, Sequence::from(next)),
             owed: Owed::Nothing,
+            asking: Trying::default(),
         }
     }
 }

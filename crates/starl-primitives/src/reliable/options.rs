@@ -15,7 +15,7 @@ pub struct Options {
     /// their messages together do not send again together. In [0, 1]; default 0.25.
     pub jitter: f64,
     /// A receiver that says nothing is tried again at most this often; then the failure of the message is
-    /// reported. Default 15.
+    /// reported. A sender that a receiver does not know is asked which life it has as often. Default 15.
     pub retries: u32,
     /// Whether each receiver takes a sender's messages in the order in which they were sent. Then a
     /// lost message holds back later ones until it arrives or its sender gives it up. Default false.

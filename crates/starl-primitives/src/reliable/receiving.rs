@@ -49,7 +49,10 @@ impl Reliable {
         let is_answer = token.is_some_and(|token| inbox.begin(incarnation, token, base));
         let mut arrived = Arrived::new();
         inbox.owed = match inbox.lives.of(incarnation) {
-            None => Owed::Greeting,
+            None => {
+                inbox.asking.attempt = 0;
+                Owed::Greeting
+            }
             Some(sequence) => {
                 sequence.settle(base, &mut arrived);
                 for (number, content) in messages {
@@ -116,7 +119,13 @@ impl Reliable {
         let Some(mut inbox) = inboxes.take(from) else {
             return;
         };
-        let packet = match (core::mem::take(&mut inbox.owed), &inbox.lives.heard) {
+        let owed = match core::mem::take(&mut inbox.owed) {
+            Owed::Nothing if inbox.asking.due.is_some_and(|due| due <= robot.now()) => {
+                Owed::Greeting
+            }
+            owed => owed,
+        };
+        let packet = match (owed, &inbox.lives.heard) {
             (Owed::Nothing, _) => None,
             (Owed::Taken, Some((incarnation, sequence))) => {
                 let (before, ahead) = sequence.report(MOST_RUNS);
@@ -129,10 +138,15 @@ impl Reliable {
             }
             (Owed::Taken | Owed::Greeting, _) => {
                 let token = inbox.lives.token(robot);
+                inbox.ask_again(robot.now(), token, &self.options);
                 Some(Packet::Greet { stream, token })
             }
         };
+        let again = inbox.asking.due;
         inboxes.put(from, inbox);
+        if let Some(at) = again {
+            self.wake_to_answer(robot, at);
+        }
         if let Some(packet) = packet {
             robot.transmit(Destination::Robot(from), self.port, &packet);
         }
@@ -154,21 +168,23 @@ impl Reliable {
         self.answered.insert(at, (sender, now));
     }
 
-    /// Sends due acknowledgements.
+    /// Sends due acknowledgements and questions.
     pub(super) fn answer_due(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.answer_at = None;
         let mut owing = Vec::new();
         for stream in [Stream::Multicast, Stream::Direct] {
             let busy = self.inboxes[stream as usize].busy();
-            let busy = busy.filter(|(_, inbox)| inbox.owed != Owed::Nothing);
-            owing.extend(busy.map(|(from, _)| (from, stream)));
+            owing.extend(busy.filter_map(|(from, inbox)| {
+                let due = inbox.due(self.last_answer((from, stream)), now, &self.options)?;
+                Some(((from, stream), due))
+            }));
         }
         owing.sort_unstable();
-        for sender in owing {
-            match self.options.answer_time(self.last_answer(sender), now) {
-                at if at <= now => self.answer(robot, sender),
-                at => self.wake_to_answer(robot, at),
+        for (sender, due) in owing {
+            match due <= now {
+                true => self.answer(robot, sender),
+                false => self.wake_to_answer(robot, due),
             }
         }
     }

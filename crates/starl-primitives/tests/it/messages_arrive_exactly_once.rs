@@ -99,6 +99,29 @@ fn with_hardly_any_memory() {
     }
 }
 
+/// The receiver has to ask which life of the sender this is. It asks by its own clock: a sender that speaks to a stranger
+/// only now and then has few occasions to be asked.
+#[test]
+fn a_first_message_arrives_where_half_of_all_is_lost() {
+    let wire = Wire {
+        loss: 0.5,
+        delay_ms: (5, 400),
+        ..Wire::perfect()
+    };
+    let mut given_up = Vec::new();
+    for seed in 0..2000 {
+        let options = Options::default();
+        let mut world = World::new(2, seed, wire.clone(), None, Talker::boxed(options));
+        world.command(0, broadcast(1));
+        world.run_for(options.failure_bound());
+        // Its acknowledgement may be lost each time.
+        if world.received().is_empty() {
+            given_up.push(seed);
+        }
+    }
+    assert_eq!(given_up, [0; 0]);
+}
+
 #[test]
 fn the_same_seed_gives_the_same_run() {
     let first = chatter(7, Options::default());

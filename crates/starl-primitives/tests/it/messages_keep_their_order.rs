@@ -53,7 +53,7 @@ fn each_senders_messages_are_delivered_in_order() {
         }
     }
     assert!(
-        unordered_runs > 100,
+        unordered_runs > 60,
         "the wire does reorder: {unordered_runs}"
     );
 }
