@@ -82,11 +82,10 @@ impl Causal {
         };
         // A suspicion alone may be wrong: the sender is asked as well, which settles it if it is up.
         let heard = self.heard.get(&sender);
-        let is_silent =
-            heard.is_none_or(|&heard| self.looks.wrapping_sub(heard) >= LONGEST_SILENCE);
-        let age = self.age(held);
-        let is_lost = age >= LEAST_LOOKS && self.suspects.contains(&sender)
-            || age >= LONGEST_SILENCE && is_silent;
+        let silence = heard.map_or(u32::MAX, |&heard| self.looks.wrapping_sub(heard));
+        let waited = self.age(held).min(silence);
+        let is_lost =
+            waited >= LEAST_LOOKS && self.suspects.contains(&sender) || waited >= LONGEST_SILENCE;
         is_known || need.is_over || is_lost
     }
 
