@@ -25,6 +25,8 @@ pub struct MavlinkOptions {
     pub take_off_height: f64,
     /// How fast it takes off, metres per second.
     pub take_off_speed: f64,
+    /// Drag per mass of the model whose commands it takes, 1/s.
+    pub drag: f64,
 }
 
 impl Default for MavlinkOptions {
@@ -35,6 +37,8 @@ impl Default for MavlinkOptions {
             vehicle: None,
             take_off_height: 0.6,
             take_off_speed: 0.5,
+            // The model `drone`: 0.3 kg/s and 0.42 kg.
+            drag: 0.3 / 0.42,
         }
     }
 }
@@ -56,8 +60,9 @@ const GRAVITY: f64 = 9.80665;
 
 /// A multicopter with PX4 or ArduPilot.
 ///
-/// An attitude of the model `drone` means an acceleration; it is flown as the velocity from which the autopilot's own
-/// loop makes that acceleration. Where a pilot or a failsafe takes the vehicle over in the air, the driver leaves it to them
+/// An attitude of the model `drone` means an acceleration against the model's drag; it is flown as the velocity from which
+/// the autopilot's own loop makes what is left of that acceleration, because the autopilot compensates the vehicle's drag by itself.
+/// Where a pilot or a failsafe takes the vehicle over in the air, the driver leaves it to them
 /// until it stands, or is switched back to the mode that follows set-points. Where set-points stop, the autopilot holds its place after 1 s (PX4) or 3 s
 /// (ArduPilot), or does what its failsafe is set to.
 #[derive(Debug)]
@@ -266,9 +271,11 @@ impl MavlinkVehicle {
             } if is_flown(command) => {
                 let now = self.vehicle.as_ref().map_or(Point::ZERO, Vehicle::velocity);
                 // Beyond this the tangent grows without bound; no vehicle tilts so far.
-                let faster = |tilt: f64| GRAVITY * tan(tilt.clamp(-0.7, 0.7)) / VELOCITY_GAIN;
-                let velocity = Point::new(now.x + faster(pitch), now.y - faster(roll), gaz);
-                (velocity, yaw_rate)
+                let push = |tilt: f64| GRAVITY * tan(tilt.clamp(-0.7, 0.7));
+                let wanted =
+                    |now: f64, push: f64| now + (push - self.options.drag * now) / VELOCITY_GAIN;
+                let (ahead, left) = (wanted(now.x, push(pitch)), wanted(now.y, push(-roll)));
+                (Point::new(ahead, left, gaz), yaw_rate)
             }
             _ => (Point::ZERO, 0.0),
         }
@@ -363,5 +370,66 @@ impl Drop for MavlinkVehicle {
             }
             std::thread::sleep(Duration::from_millis(10));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA};
+    use starl_core::math::atan;
+
+    /// A driver of a vehicle that looks north and moves with this velocity: north and east, metres per second.
+    fn driver(north: f32, east: f32) -> MavlinkVehicle {
+        let options = MavlinkOptions {
+            listen: (IpAddr::from(Ipv4Addr::LOCALHOST), 0).into(),
+            ..MavlinkOptions::default()
+        };
+        let mut driver = MavlinkVehicle::connect(&options).expect("a port is free");
+        let mut vehicle = Vehicle::new(Autopilot::Px4);
+        vehicle.take(&MavMessage::ATTITUDE(ATTITUDE_DATA::DEFAULT));
+        vehicle.take(&MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA {
+            vx: north,
+            vy: east,
+            ..LOCAL_POSITION_NED_DATA::DEFAULT
+        }));
+        driver.vehicle = Some(vehicle);
+        driver
+    }
+
+    fn tilted(pitch: f64, roll: f64) -> Command {
+        Command::Attitude {
+            yaw_rate: 0.0,
+            pitch,
+            roll,
+            gaz: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_tilt_that_balances_drag_keeps_the_velocity() {
+        let drag = MavlinkOptions::default().drag;
+        let tilt = |speed: f64| atan(drag * speed / GRAVITY);
+        let (velocity, _) = driver(1.5, 0.0).translate(&tilted(tilt(1.5), 0.0));
+        assert!(
+            velocity.distance(Point::planar(1.5, 0.0)) < 1e-6,
+            "{velocity:?}"
+        );
+        let (velocity, _) = driver(0.0, 1.0).translate(&tilted(0.0, tilt(1.0)));
+        assert!(
+            velocity.distance(Point::planar(0.0, -1.0)) < 1e-6,
+            "{velocity:?}"
+        );
+    }
+
+    #[test]
+    fn a_level_vehicle_that_moves_is_slowed_by_drag() {
+        let drag = MavlinkOptions::default().drag;
+        let (velocity, _) = driver(1.0, 0.0).translate(&tilted(0.0, 0.0));
+        let wanted = 1.0 - drag / VELOCITY_GAIN;
+        assert!(
+            velocity.distance(Point::planar(wanted, 0.0)) < 1e-6,
+            "{velocity:?}"
+        );
     }
 }

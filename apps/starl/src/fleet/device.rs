@@ -9,6 +9,8 @@ use starl_core::{Pose, RobotId};
 use starl_crazyflie::{Crazyflie, CrazyflieOptions};
 use starl_create::{Create, CreateOptions};
 use starl_mavlink::{MavlinkOptions, MavlinkVehicle};
+use starl_motion::Model;
+use starl_motion::models::ArdroneParameters;
 use starl_natnet::{NatNet, NatNetOptions, UpAxis};
 use starl_node::DeviceError;
 use starl_node::motors::PositionSource;
@@ -88,6 +90,7 @@ pub fn connect(
             let options = MavlinkOptions {
                 listen: listen.unwrap_or(usual.listen),
                 vehicle: *vehicle,
+                drag: drag(&*group.model),
                 ..usual
             };
             Box::new(MavlinkVehicle::connect(&options).map_err(cannot)?)
@@ -98,6 +101,17 @@ pub fn connect(
         .as_ref()
         .map(|source| follow(source, fleet, member));
     Ok((device, positions.transpose()?))
+}
+
+/// Drag per mass of a drone, 1/s.
+fn drag(model: &dyn Model) -> f64 {
+    let usual = ArdroneParameters::default();
+    let changed = model.parameters();
+    let value = |name: &str, usual: f64| {
+        let set = changed.iter().find(|(field, _)| field.name == name);
+        set.map_or(usual, |(_, value)| *value)
+    };
+    value("drag", usual.drag) / value("mass", usual.mass)
 }
 
 /// Follows the robot by motion capture, and the others that it may see.
