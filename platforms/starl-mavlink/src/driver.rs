@@ -53,6 +53,9 @@ const REPEAT: Duration = Duration::from_millis(400);
 const TELEMETRY: [u32; 3] = [32, 30, 245];
 /// Microseconds between two of them.
 const INTERVAL: f32 = 50_000.0;
+/// The number of requests to a vehicle that sends all messages, but does not confirm that it changes their rate. It may
+/// refuse them, which is a fault only where it continues for longer.
+const MOST_REQUESTS: u32 = 5;
 /// The autopilot's gain from an error of velocity to an acceleration, 1/s: PX4's `MPC_XY_VEL_P_ACC` is 1.8, ArduCopter's
 /// `PSC_VELXY_P` 2.
 const VELOCITY_GAIN: f64 = 1.8;
@@ -72,6 +75,8 @@ pub struct MavlinkVehicle {
     vehicle: Option<Vehicle>,
     greeted: Option<Instant>,
     asked: Option<Instant>,
+    /// How often this vehicle was asked for messages.
+    requests: u32,
     /// Whether it is to be in the air; unknown until the vehicle says whether it is.
     fly: Option<bool>,
 }
@@ -88,6 +93,7 @@ impl MavlinkVehicle {
             vehicle: None,
             greeted: None,
             asked: None,
+            requests: 0,
             fly: None,
         })
     }
@@ -142,8 +148,13 @@ impl MavlinkVehicle {
             system_status: MavState::MAV_STATE_ACTIVE,
             mavlink_version: 3,
         }))?;
-        let complete = |vehicle: &Vehicle| vehicle.landed.is_some();
+        let complete = |vehicle: &Vehicle| {
+            // Messages also arrive without a request, but too seldom to fly by.
+            let granted = vehicle.granted >= TELEMETRY.len() || self.requests >= MOST_REQUESTS;
+            vehicle.landed.is_some() && granted
+        };
         if self.link.has_peer() && !self.vehicle.as_ref().is_some_and(complete) {
+            self.requests = self.requests.saturating_add(1);
             for message in TELEMETRY {
                 let parameters = [message as f32, INTERVAL, 0.0, 0.0, 0.0, 0.0, 0.0];
                 self.link
@@ -166,6 +177,7 @@ impl MavlinkVehicle {
         for (new, message) in self.link.receive()? {
             if let Some(autopilot) = new {
                 self.vehicle = Some(Vehicle::new(autopilot));
+                self.requests = 0;
             }
             if let Some(vehicle) = &mut self.vehicle {
                 vehicle.take(&message);

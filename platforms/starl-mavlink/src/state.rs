@@ -35,6 +35,8 @@ pub(crate) struct Vehicle {
     /// Whether it has followed set-points since it stood last.
     followed: bool,
     pub landed: Option<bool>,
+    /// The number of requests for messages that it has confirmed.
+    pub granted: usize,
     position: Option<LOCAL_POSITION_NED_DATA>,
     attitude: Option<ATTITUDE_DATA>,
     /// Height of the floor, metres down in the vehicle's frame.
@@ -54,6 +56,7 @@ impl Vehicle {
             armed: false,
             followed: false,
             landed: None,
+            granted: 0,
             position: None,
             attitude: None,
             floor: None,
@@ -108,6 +111,10 @@ impl Vehicle {
     fn acknowledge(&mut self, command: MavCmd, result: MavResult) {
         let now = Instant::now();
         let before = self.refused.filter(|refusal| refusal.command == command);
+        let accepted = result == MavResult::MAV_RESULT_ACCEPTED;
+        if accepted && command == MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL {
+            self.granted += 1;
+        }
         let done = [
             MavResult::MAV_RESULT_ACCEPTED,
             MavResult::MAV_RESULT_IN_PROGRESS,

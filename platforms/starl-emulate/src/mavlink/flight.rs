@@ -69,6 +69,10 @@ impl Flight {
         self.autopilot.number(self.mode)
     }
 
+    pub fn interval(&self, number: u32) -> Option<f64> {
+        self.telemetry.interval(number)
+    }
+
     /// The datagrams that are due.
     pub fn outbox(&mut self) -> Vec<Vec<u8>> {
         self.telemetry.outbox()

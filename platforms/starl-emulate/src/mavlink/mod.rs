@@ -72,6 +72,12 @@ impl EmulatedVehicle {
         flight.mode()
     }
 
+    /// The time between two messages of this number, seconds; `None` if it never sends them.
+    pub fn interval(&self, number: u32) -> Option<f64> {
+        let flight = self.flight.lock().unwrap_or_else(PoisonError::into_inner);
+        flight.interval(number)
+    }
+
     /// Sends its client bytes between its messages.
     pub fn interfere(&self, bytes: &[u8]) {
         let flight = self.flight.lock().unwrap_or_else(PoisonError::into_inner);

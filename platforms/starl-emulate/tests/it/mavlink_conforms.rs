@@ -129,3 +129,20 @@ fn vehicle_that_is_switched_on_by_hand_is_taken_off() {
         reading.height.unwrap() < 0.01
     });
 }
+
+#[test]
+fn a_vehicle_that_sends_before_it_is_asked_is_asked_for_more() {
+    for autopilot in [Autopilot::Px4, Autopilot::ArduPilot] {
+        let (mut driver, _body, emulated) = robot(autopilot);
+        // By now the vehicle has sent each message without being asked.
+        sleep(Duration::from_millis(100));
+        let limit = Instant::now() + Duration::from_secs(20);
+        let asked = |interval: f64| (interval - 0.05).abs() < 1e-6;
+        while !emulated.interval(32).is_some_and(asked) {
+            assert!(Instant::now() < limit, "{autopilot:?}: it is not asked");
+            let _ = driver.drive(&Command::Stop, &Estimate::default());
+            let _ = driver.read();
+            sleep(Duration::from_millis(30));
+        }
+    }
+}

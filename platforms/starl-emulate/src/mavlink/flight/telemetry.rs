@@ -68,6 +68,11 @@ impl Telemetry {
         true
     }
 
+    pub fn interval(&self, number: u32) -> Option<f64> {
+        let index = MESSAGES.iter().position(|(known, _)| *known == number)?;
+        Some(self.intervals[index])
+    }
+
     /// Queues a message.
     pub fn push(&mut self, message: &MavMessage) {
         let header = MavHeader {
