@@ -55,7 +55,9 @@ pub struct Core<R: Recorder, E: Equipment> {
     next_pose: Time,
     /// The position that was recorded last.
     recorded: Point,
-    pub(super) beacons: u32,
+    /// When distant robots hear the next beacons, and which of them, in turns.
+    pub(super) next_far: Time,
+    pub(super) turn: u32,
     pub(super) link_heard: Time,
     pub(super) failure: Option<String>,
     /// Until when the robot, stopped by an operator, still answers.
@@ -69,6 +71,10 @@ pub(super) struct Peer {
     pub quality: Quality,
     /// When it sent its latest beacon, by its clock, and when that arrived.
     pub latest: Option<(Time, Time)>,
+    /// Where it was by that beacon.
+    pub place: Option<Point>,
+    /// The number of the latest beacon to it.
+    pub beacons: u32,
 }
 
 impl<R: Recorder, E: Equipment> Core<R, E> {
@@ -107,7 +113,8 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             next_beacon: now,
             next_pose: now,
             recorded: Point::ZERO,
-            beacons: 0,
+            next_far: now,
+            turn: 0,
             link_heard: now,
             failure: None,
             leaving: None,
@@ -217,8 +224,9 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             self.handle(NodeInput::Timeout);
         }
         if self.next_beacon <= self.now {
+            let late = self.now.since(self.next_beacon);
             self.next_beacon = self.now + BEACON_PERIOD;
-            self.send_beacons();
+            self.send_beacons(late);
             self.recorder.advance(self.now);
         }
         self.tell_operators();

@@ -1,5 +1,6 @@
 //! The robot's end of the link: what it hears from others and tells them.
 
+use super::core::Peer;
 use super::{Core, Equipment, Recorder};
 use crate::link::beacon::Beacon;
 use crate::link::channel::{self, Opened};
@@ -11,6 +12,20 @@ use starl_host::{Datagram, NodeInput};
 
 /// A robot that was stopped answers for so long, since its confirmation may be lost.
 const FAREWELL: Duration = Duration::from_millis(1000);
+
+/// The number of nearest robots that hear each round of beacons, because this one may have to avoid them.
+const NEAR: usize = 8;
+
+/// The other robots hear one round of this number, in turns. A robot of a hundred that told all of them its position ten
+/// times a second would send and receive 2,000 packets a second.
+const TURNS: u32 = 6;
+
+/// A round that is late shows that the computer has too much to do. Distant robots miss rounds for this many times the
+/// delay, so that beacons do not displace the messages of programs.
+const EASING: u64 = 10;
+
+/// They miss rounds for at most this time, so that they hear this robot within 7 s.
+const LONGEST_EASING: Duration = Duration::from_millis(1000);
 
 impl<R: Recorder, E: Equipment> Core<R, E> {
     pub(super) fn receive(&mut self, arrival: &Arrival) {
@@ -81,29 +96,60 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         peer.quality.take(self.now, beacon);
         peer.latest = Some((beacon.sent, self.now));
         if let Some(pose) = beacon.pose {
+            peer.place = Some(pose.position);
             let robot = RobotId(from);
             self.surroundings
                 .hear(robot, self.now, pose.position, beacon.velocity);
         }
     }
 
-    pub(super) fn send_beacons(&mut self) {
+    /// Sends a round of beacons, which is so late.
+    pub(super) fn send_beacons(&mut self, late: Duration) {
         for (member, packet) in self.channel.due(self.now) {
             let _ = self.equipment.send(member, &packet);
         }
-        for index in 0..self.fleet.len() {
-            if index != self.setup.id.index() {
-                self.send_beacon(index as u32);
+        let mut turn = None;
+        if self.next_far <= self.now {
+            turn = Some(self.turn % TURNS);
+            self.turn = self.turn.wrapping_add(1);
+            self.next_far =
+                self.now + Duration(late.0.saturating_mul(EASING).min(LONGEST_EASING.0));
+        }
+        for (rank, peer) in self.nearest().into_iter().enumerate() {
+            if rank < NEAR || turn == Some(peer % TURNS) {
+                self.send_beacon(peer);
             }
         }
-        self.beacons = self.beacons.wrapping_add(1);
+    }
+
+    /// The other robots, the nearest first; those whose place is unknown last.
+    fn nearest(&self) -> Vec<Member> {
+        let me = self.setup.id.index();
+        let here = self.localiser.estimate().map(|(own, _)| own.pose.position);
+        let distance = |peer: &Peer| {
+            let both = here.zip(peer.place);
+            both.map_or(f64::INFINITY, |(here, there)| here.distance(there))
+        };
+        let peers = self.peers.iter().enumerate();
+        let others = peers.filter(|(index, _)| *index != me);
+        let mut ranked: Vec<(f64, Member)> = others
+            .map(|(index, peer)| (distance(peer), index as Member))
+            .collect();
+        if ranked.len() > NEAR {
+            ranked.sort_by(|one, other| one.0.total_cmp(&other.0));
+        }
+        ranked.into_iter().map(|(_, member)| member).collect()
     }
 
     fn send_beacon(&mut self, to: Member) {
         let estimate = self.localiser.estimate();
-        let peer = self.peers.get(to as usize);
+        let mut peer = self.peers.get_mut(to as usize);
+        let number = peer.as_mut().map_or(0, |peer| {
+            peer.beacons = peer.beacons.wrapping_add(1);
+            peer.beacons
+        });
         let beacon = Beacon {
-            number: self.beacons,
+            number,
             sent: self.now,
             pose: estimate.map(|(estimate, _)| estimate.pose),
             velocity: estimate.map_or(starl_core::Point::ZERO, |(e, _)| e.twist.linear),

@@ -1,5 +1,6 @@
 //! The tests of `starl-node`, in one binary so that they link once.
 
+mod beacons;
 mod conforms;
 mod hidden_obstacles;
 mod poses_on_record;
