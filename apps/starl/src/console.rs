@@ -31,7 +31,8 @@ pub fn command() -> String {
 
 /// Writes a message to the error stream.
 pub fn error(message: &str) {
-    let _ = writeln!(io::stderr().lock(), "error: {message}");
+    // In one piece, because several processes may write to the same terminal.
+    complain(&format!("error: {message}\n"));
 }
 
 /// Writes text to the error stream.

@@ -192,7 +192,7 @@ impl Link {
         }
         if self.heard.elapsed() > SILENCE {
             return Err(DeviceError::Fault(format!(
-                "the world at {} has no body `{}` or does not answer; `starl emulate fleet` emulates it",
+                "the world at {} has no body `{}` or does not answer; `starl fleet up --emulate` and `starl emulate fleet` serve it",
                 self.world, self.drive.body
             )));
         }

@@ -160,7 +160,11 @@ fn bodies(world: &World, fleet: &Fleet, address: SocketAddr) -> Result<Emulated,
         ))
     });
     let device = EmulatedBodies::start(added.collect::<Result<_, _>>()?, address)
-        .map_err(|error| Failure(format!("world {address}: {}", reason(&error))))?;
+        .map_err(|error| {
+            let why = reason(&error);
+            let what = format!("world: {address} cannot be used: {why}; give a free port of this computer, such as \"127.0.0.1:7500\"");
+            Failure::file(&fleet.path, what)
+        })?;
     Ok(Emulated {
         text: format!("bodies of simulated robots at {}", device.address()),
         _device: Box::new(device),

@@ -332,12 +332,21 @@ impl Fleet {
                 "link: a `key` is given, and `protected = false`; leave one out",
             ));
         }
+        let members = members(path, &written, &application)?;
+        if let Some(member) = members
+            .iter()
+            .find(|member| Some(member.address) == written.world)
+        {
+            let (name, address) = (&member.name, member.address);
+            let what = format!("world: is {address}, as {name}'s address; take another port");
+            return Err(Failure::file(path, what));
+        }
         let key = is_protected.then(|| match &written.link.key {
             Some(key) => folder.join(key),
             None => path.with_extension("key"),
         });
         Ok(Fleet {
-            robots: members(path, &written, &application)?,
+            robots: members,
             safety: safety(
                 path,
                 &written.safety,
@@ -565,11 +574,16 @@ fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
         .span()
         .map_or("", |span| &text[..span.start.min(text.len())]);
     let line = 1 + before.matches('\n').count();
-    Failure(format!(
-        "{}:{line}: {}",
-        path.display(),
-        error.message().trim_end()
-    ))
+    let message = error.message().trim_end();
+    let written = text.lines().nth(line - 1).unwrap_or("").trim();
+    let message = match message.contains("socket address") {
+        true if written.starts_with("[world") => {
+            "[world]: `world` is an address, such as world = \"127.0.0.1:7500\"; the obstacles are the scenario's".to_string()
+        }
+        true => format!("{written}: give an address with its port, such as \"127.0.0.1:7500\""),
+        false => message.to_string(),
+    };
+    Failure(format!("{}:{line}: {message}", path.display()))
 }
 
 impl Device {

@@ -10,10 +10,10 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Real time is slow: a test that waits for longer has failed.
-const PATIENCE: Duration = Duration::from_secs(60);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Two robots that run a race of about five seconds.
-const RACE: &str = r#"
+pub(crate) const RACE: &str = r#"
 program = "race"
 duration = "60s"
 
@@ -31,7 +31,7 @@ start = [{ position = [0, 0] }, { position = [0, 1] }]
 "#;
 
 /// The first of `count` successive ports that are free.
-fn ports(count: u16) -> u16 {
+pub(crate) fn ports(count: u16) -> u16 {
     let free = |port: u16| UdpSocket::bind(("127.0.0.1", port)).is_ok();
     let socket = UdpSocket::bind("127.0.0.1:0").expect("there is a free port");
     let start = socket.local_addr().expect("it is bound").port();
@@ -56,10 +56,10 @@ fn fleet(test: &str) -> std::path::PathBuf {
 }
 
 /// A fleet that runs until this is dropped.
-struct Up(Child);
+pub(crate) struct Up(pub(crate) Child);
 
 impl Up {
-    fn start(folder: &Path, arguments: &[&str]) -> Up {
+    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Up {
         let mut all = vec!["fleet", "up", "fleet.toml"];
         all.extend_from_slice(arguments);
         let mut command = command(folder, &all);
@@ -68,7 +68,7 @@ impl Up {
     }
 
     /// Its output, once it has ended.
-    fn end(mut self) -> std::process::Output {
+    pub(crate) fn end(mut self) -> std::process::Output {
         let begun = Instant::now();
         while self.0.try_wait().expect("it can be asked").is_none() {
             assert!(begun.elapsed() < PATIENCE, "the fleet does not end");
@@ -457,7 +457,19 @@ fn problems_of_a_fleet_file_are_reported_in_one_message() {
         ),
         (
             "scenario = \"race.toml\"\n[robots.robot0]\naddress = \"here\"\n",
-            "fleet.toml:3: invalid socket address",
+            "fleet.toml:3: address = \"here\": give an address with its port",
+        ),
+        (
+            "scenario = \"race.toml\"\nworld = \"emulated\"\n",
+            "fleet.toml:2: world = \"emulated\": give an address with its port",
+        ),
+        (
+            "scenario = \"race.toml\"\n[world]\nobstacle = []\n",
+            "`world` is an address, such as world = \"127.0.0.1:7500\"",
+        ),
+        (
+            "scenario = \"race.toml\"\nworld = \"127.0.0.1:7401\"\n",
+            "world: is 127.0.0.1:7401, as robot1's address; take another port",
         ),
         (
             "scenario = \"race.toml\"\n[robots.robot0]\naddress = \"127.0.0.1:7000\"\n[robots.robot1]\naddress = \"127.0.0.1:7000\"\n",
@@ -572,6 +584,76 @@ fn race_runs_on_emulated_creates_and_drones_over_zenoh() {
         let line = text.lines().find(|line| line.starts_with(property));
         assert!(line.is_some_and(|line| line.ends_with("holds")), "{text}");
     }
+}
+
+/// A robot drives ahead until it bumps into something.
+const RAM: &str = r#"
+program Ram
+
+ahead()
+    pre bumped == none
+    eff drive_wheels(0.3, 0.3)
+
+rest()
+    pre bumped != none
+    eff drive_wheels(0.0, 0.0); finish()
+"#;
+
+/// Runs robots with the program [`RAM`] in the world of the emulator, from these starts, and returns its output.
+fn ram(test: &str, starts: &str, extra: &str) -> std::process::Output {
+    let folder = folder(test);
+    file(&folder, "ram.starl", RAM);
+    let count = starts.matches("position").count();
+    let scenario = format!(
+        "program = \"ram.starl\"\nduration = \"30s\"\n{extra}\n[[robots]]\nmodel = \"create\"\n\
+         name = \"robot\"\ncount = {count}\nstart = [{starts}]\n"
+    );
+    file(&folder, "ram.toml", &scenario);
+    let first = ports(3);
+    let text = format!(
+        "scenario = \"ram.toml\"\nworld = \"127.0.0.1:{}\"\n[link]\nfirst_port = {first}\n",
+        first + 2
+    );
+    file(&folder, "fleet.toml", &text);
+    Up::start(&folder, &["--emulate"]).end()
+}
+
+/// Two robots that face each other.
+const FACE_TO_FACE: &str = "{ position = [0, 0] }, { position = [1, 0], heading = \"180deg\" }";
+
+#[test]
+fn a_fleet_whose_emulated_robots_collide_fails() {
+    let output = ram("fleet_collides", FACE_TO_FACE, "");
+    let (text, messages) = (stdout(&output), stderr(&output));
+    assert_eq!(status(&output), 1, "{text}{messages}");
+    for message in [
+        " ran into robot",
+        "all robots have finished",
+        "emulated robots ran into something ",
+    ] {
+        assert!(messages.contains(message), "{message}: {text}{messages}");
+    }
+}
+
+#[test]
+fn a_fleet_may_collide_where_its_scenario_allows_it() {
+    let allowed = "[properties]\nno_collision = false\n";
+    let output = ram("fleet_may_collide", FACE_TO_FACE, allowed);
+    let messages = stderr(&output);
+    assert_eq!(status(&output), 0, "{}{messages}", stdout(&output));
+    assert!(messages.contains(" ran into robot"), "{messages}");
+}
+
+#[test]
+fn a_fleet_whose_emulated_robot_runs_into_an_obstacle_fails() {
+    let wall = "[[world.obstacle]]\nbox = { low = [0.8, -1, 0], high = [1, 1, 1] }\n";
+    let output = ram("fleet_wall", "{ position = [0, 0] }", wall);
+    let messages = stderr(&output);
+    assert_eq!(status(&output), 1, "{}{messages}", stdout(&output));
+    assert!(
+        messages.contains("robot0 ran into an obstacle near (0.6"),
+        "{messages}"
+    );
 }
 
 /// Two Creates that run a race of a few seconds.
