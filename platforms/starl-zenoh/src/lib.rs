@@ -5,8 +5,10 @@
 //! several networks as long as routers join them. No multicast is used. Packets are protected by
 //! [`starl_node::link::Channel`] as on any link; TLS comes beneath that where it is configured.
 
+mod probe;
 mod tls;
 
+pub use probe::{Answer, Probed, Probes};
 pub use tls::{Tls, TlsError};
 
 use starl_node::link::{Arrival, Member, Origin, Transport};
@@ -82,6 +84,8 @@ pub struct Zenoh {
     packets: SyncSender<(Member, Vec<u8>)>,
     // Kept so that packets arrive.
     _session: Session,
+    // Kept so that it reports problems with other members.
+    _probes: Option<Probes>,
 }
 
 impl Zenoh {
@@ -127,7 +131,15 @@ impl Zenoh {
         Ok(Zenoh {
             packets,
             _session: session,
+            _probes: None,
         })
+    }
+
+    /// Keeps these probes for as long as the connection.
+    #[must_use]
+    pub fn with_probes(mut self, probes: Option<Probes>) -> Zenoh {
+        self._probes = probes;
+        self
     }
 }
 

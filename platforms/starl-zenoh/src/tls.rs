@@ -10,7 +10,8 @@ use rustls::pki_types::pem::{self, PemObject};
 use rustls::pki_types::{CertificateDer, PrivateKeyDer, ServerName, UnixTime};
 use rustls::server::WebPkiClientVerifier;
 use rustls::sign::CertifiedKey;
-use rustls::{CertificateError, Error, InconsistentKeys, RootCertStore};
+use rustls::version::TLS13;
+use rustls::{CertificateError, ClientConfig, Error, InconsistentKeys, RootCertStore};
 use std::fmt;
 use std::net::IpAddr;
 use std::path::{Path, PathBuf};
@@ -60,14 +61,9 @@ impl Tls {
     /// expired, is not for the address, or is not signed by the authority.
     pub fn check(&self, address: Option<IpAddr>) -> Result<(), TlsError> {
         let provider = Arc::new(rustls::crypto::ring::default_provider());
-        let mut roots = RootCertStore::empty();
-        for root in read_certificates("authority", &self.authority)? {
-            let added = roots.add(root);
-            added.map_err(|error| TlsError::new("authority", &self.authority, text(&error)))?;
-        }
+        let roots = self.roots()?;
         let chain = read_certificates("certificate", &self.certificate)?;
-        let key = PrivateKeyDer::from_pem_file(&self.key)
-            .map_err(|error| unreadable("key", &self.key, &error, "a private key"))?;
+        let key = self.private_key()?;
         CertifiedKey::from_der(chain.clone(), key, &provider).map_err(|error| {
             let problem = match error {
                 Error::InconsistentKeys(InconsistentKeys::KeyMismatch) => {
@@ -92,6 +88,37 @@ impl Tls {
             };
             TlsError::new("certificate", &self.certificate, problem)
         })
+    }
+
+    /// The configuration with which this member connects to others.
+    pub(crate) fn client(&self) -> Result<ClientConfig, TlsError> {
+        let unusable = |error: Error| TlsError::new("certificate", &self.certificate, text(&error));
+        let provider = Arc::new(rustls::crypto::ring::default_provider());
+        // Zenoh takes no other version where both ends have certificates.
+        let builder = ClientConfig::builder_with_provider(provider)
+            .with_protocol_versions(&[&TLS13])
+            .map_err(unusable)?;
+        builder
+            .with_root_certificates(self.roots()?)
+            .with_client_auth_cert(
+                read_certificates("certificate", &self.certificate)?,
+                self.private_key()?,
+            )
+            .map_err(unusable)
+    }
+
+    fn roots(&self) -> Result<RootCertStore, TlsError> {
+        let mut roots = RootCertStore::empty();
+        for root in read_certificates("authority", &self.authority)? {
+            let added = roots.add(root);
+            added.map_err(|error| TlsError::new("authority", &self.authority, text(&error)))?;
+        }
+        Ok(roots)
+    }
+
+    fn private_key(&self) -> Result<PrivateKeyDer<'static>, TlsError> {
+        PrivateKeyDer::from_pem_file(&self.key)
+            .map_err(|error| unreadable("key", &self.key, &error, "a private key"))
     }
 }
 
@@ -150,7 +177,7 @@ fn unreadable(field: &'static str, path: &Path, error: &pem::Error, wanted: &str
 }
 
 /// The problem of a certificate in plain words.
-fn text(error: &Error) -> String {
+pub(crate) fn text(error: &Error) -> String {
     let Error::InvalidCertificate(problem) = error else {
         return format!("cannot be used: {error}");
     };

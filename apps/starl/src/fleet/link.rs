@@ -118,6 +118,8 @@ fn zenoh(
         },
         tls: certificates(fleet, robot),
     };
+    // First, because a client waits for its router.
+    let probes = probes(fleet, robot)?;
     let joined = Zenoh::open(&fleet.name, me, &options, deliver);
     let joined = joined.map_err(|error| {
         let what = format!(
@@ -125,7 +127,44 @@ fn zenoh(
         );
         Failure::file(&fleet.path, what)
     })?;
-    Ok(Box::new(joined))
+    Ok(Box::new(joined.with_probes(probes)))
+}
+
+/// Reports the members that refuse this one, or that have no TLS; none if the fleet has no certificates.
+#[cfg(feature = "zenoh")]
+fn probes(fleet: &Fleet, robot: Option<&Member>) -> Result<Option<starl_zenoh::Probes>, Failure> {
+    use starl_zenoh::{Probed, Probes};
+
+    let Some(tls) = certificates(fleet, robot) else {
+        return Ok(None);
+    };
+    let others = fleet.robots.iter();
+    let others = others.filter(|other| robot.is_none_or(|robot| robot.id != other.id));
+    let members = match &fleet.network.router {
+        Some(router) => vec![Probed {
+            name: "the router".to_string(),
+            address: router
+                .trim_start_matches("tls/")
+                .split(['?', '#'])
+                .take(1)
+                .collect(),
+        }],
+        None => others
+            .map(|other| Probed {
+                name: other.name.clone(),
+                address: other.address.to_string(),
+            })
+            .collect(),
+    };
+    let path = fleet.path.display().to_string();
+    let name = robot.map_or("operator", |robot| &robot.name).to_string();
+    let tell = move |problem: &str| {
+        crate::console::complain(&format!("{name}: {path}: link.tls: {problem}\n"));
+    };
+    let started = Probes::start(&tls, members, tell);
+    let probes =
+        started.map_err(|error| Failure::file(&fleet.path, format!("link.tls.{error}")))?;
+    Ok(Some(probes))
 }
 
 #[cfg(not(feature = "zenoh"))]

@@ -13,6 +13,8 @@ mod explore_programs;
 mod first_program;
 #[cfg(feature = "fleet")]
 mod fleet;
+#[cfg(all(unix, feature = "zenoh"))]
+mod fleet_certificates;
 mod format_programs;
 mod interrupted_run;
 mod json_report;

@@ -2,7 +2,7 @@
 
 use rcgen::{BasicConstraints, CertificateParams, IsCa, Issuer, KeyPair};
 use starl_node::link::{Arrival, Transport};
-use starl_zenoh::{Tls, Zenoh, ZenohOptions};
+use starl_zenoh::{Answer, Probed, Tls, Zenoh, ZenohOptions};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
@@ -219,4 +219,72 @@ fn a_member_that_only_connects_needs_no_address_in_its_certificate() {
     let operator = authority.sign("operator", "10.0.0.1");
     operator.check(None).unwrap();
     operator.check(Some(HERE)).unwrap_err();
+}
+
+/// A member that listens at an endpoint.
+fn at(endpoint: &str) -> Probed {
+    let (_, address) = endpoint.split_once('/').unwrap();
+    Probed {
+        name: "first".to_string(),
+        address: address.to_string(),
+    }
+}
+
+#[test]
+fn a_probe_tells_why_two_members_cannot_meet() {
+    let folder = folder("probe");
+    let authority = Authority::new(&folder, "authority");
+    let other = Authority::new(&folder, "other");
+    let place = endpoint();
+    let second = authority.sign("second", "127.0.0.1");
+    assert_eq!(second.probe(&at(&place)).unwrap(), Answer::Absent);
+
+    let first = authority.sign("first", "127.0.0.1");
+    let (_first, _inbox) = join(0, Some(&place), None, first);
+    assert_eq!(second.probe(&at(&place)).unwrap(), Answer::Accepted);
+
+    let reason = |tls: &Tls| match tls.probe(&at(&place)).unwrap() {
+        Answer::Refused(reason) => reason,
+        answer => panic!("{answer:?}"),
+    };
+    // It trusts the fleet's authority, but has its own certificate from another one.
+    let stranger = other.sign("stranger", "127.0.0.1");
+    let unsigned = stranger_of(&stranger, &second);
+    let refused = reason(&unsigned);
+    assert!(refused.starts_with("first at 127.0.0.1:"), "{refused}");
+    assert!(
+        refused.contains(" refuses this member's certificate "),
+        "{refused}"
+    );
+    // It trusts another authority.
+    let refused = reason(&stranger);
+    let text = " has a certificate that is not signed by the authority ";
+    assert!(refused.contains(text), "{refused}");
+
+    // A member with a certificate for another address.
+    let place = endpoint();
+    let elsewhere = authority.sign("elsewhere", "10.0.0.1");
+    let (_elsewhere, _inbox) = join(1, Some(&place), None, elsewhere);
+    let Answer::Refused(refused) = second.probe(&at(&place)).unwrap() else {
+        panic!("its address is another");
+    };
+    let text = "it needs the subject alternative name 127.0.0.1";
+    assert!(refused.contains(text), "{refused}");
+}
+
+#[test]
+fn a_probe_finds_a_member_without_tls() {
+    let folder = folder("plain");
+    let authority = Authority::new(&folder, "authority");
+    let member = authority.sign("member", "127.0.0.1");
+    let place = endpoint().replace("tls/", "tcp/");
+    let options = ZenohOptions {
+        listen: vec![place.clone()],
+        ..ZenohOptions::default()
+    };
+    let _plain = Zenoh::open("fleet", 0, &options, |_| true).unwrap();
+    let Answer::Refused(refused) = member.probe(&at(&place)).unwrap() else {
+        panic!("it has no TLS");
+    };
+    assert!(refused.contains(" does not answer by TLS; "), "{refused}");
 }
