@@ -6,15 +6,17 @@
 
 mod agreement;
 mod causal;
+mod reach;
 mod sequence;
 
 use super::report::{MessageKey, Report};
 use super::taken::Taken;
-use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
 use agreement::Agreement;
 use causal::Causality;
+use reach::Reach;
 use sequence::Sequences;
-use starl_core::event::messaging::Order;
+use starl_core::event::messaging::{LeaveReason, Order};
 use starl_core::event::{BroadcastEvent, Event, Fault, TransferEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::BTreeMap;
@@ -36,6 +38,10 @@ pub(super) struct BroadcastOrder {
     /// The messages that were broadcast without order, and delivered.
     unordered: Taken,
     agreement: Agreement,
+    /// For total order: which robots can have its messages.
+    reach: Reach,
+    /// Whether some state was corrupted.
+    was_corrupted: bool,
     /// After a corruption nothing is judged until then.
     void_until: Time,
     excused: Excused,
@@ -109,6 +115,8 @@ impl BroadcastOrder {
             instances: BTreeMap::new(),
             unordered: Taken::default(),
             agreement: Agreement::new(setting.bodies.len(), bound),
+            reach: Reach::new(setting),
+            was_corrupted: false,
             void_until: Time::ZERO,
             excused: Excused::default(),
         }
@@ -157,6 +165,7 @@ impl BroadcastOrder {
                     causality.sent(robot, key, at);
                 }
                 if instance.is_total && is_judged {
+                    self.reach.broadcast(key);
                     self.agreement.sent(key, at);
                 } else if instance.is_total {
                     self.excused.note(AGREEMENT, Excuse::Corruption);
@@ -167,12 +176,28 @@ impl BroadcastOrder {
                 instance.handed(robot, key, &mut finding);
                 if instance.is_total {
                     self.agreement.handed(key, robot);
+                    if let Some(having) = self.reach.few_with(&key) {
+                        let text = format!(
+                            "delivered message {} of robot {}, which only {} can have, no majority of the fleet",
+                            key.number,
+                            key.from,
+                            robot_list(&having)
+                        );
+                        finding.add(AGREEMENT, key.from, text);
+                    }
                 }
             }
             BroadcastEvent::PassOver { from, message } => {
                 if let Some(causality) = &mut instance.causality {
                     causality.passed(robot, report.message(*from, *message));
                 }
+            }
+            BroadcastEvent::Leave {
+                reason: LeaveReason::Corrupt,
+            } if !self.was_corrupted => {
+                let text = "found that what it had delivered differs from the order of others, though no state was \
+                            corrupted";
+                finding.add(TOTAL, robot, text.into());
             }
             BroadcastEvent::Gap => {
                 instance.sequences.gap(robot);
@@ -256,7 +281,12 @@ impl Checker for BroadcastOrder {
         self.agreement
             .check(record.at, violations, &mut self.excused);
         match &record.event {
-            Event::Sent { .. } | Event::Delivered { .. } => self.agreement.observe(record),
+            Event::Sent { .. } | Event::Delivered { .. } => {
+                self.agreement.observe(record);
+                if let Some(robot) = record.robot {
+                    self.reach.observe(robot, &record.event);
+                }
+            }
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record) {
                     self.reported(&report, violations);
@@ -272,6 +302,7 @@ impl Checker for BroadcastOrder {
                         }
                     }
                     (Some(_), Fault::CorruptState) => {
+                        self.was_corrupted = true;
                         self.void_until = record.at + self.bound;
                         for instance in self.instances.values_mut() {
                             instance.handed.clear();

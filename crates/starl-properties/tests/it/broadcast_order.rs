@@ -392,3 +392,52 @@ fn unordered_messages_are_delivered_once_in_any_order() {
     handed(&mut story, 1200, 2, (0, 4));
     assert_only(&story.verdict(9000), "broadcast.integrity", 1200, &[2, 0]);
 }
+
+/// Robot 0 broadcasts in total order and delivers its message. The records are a simulator's, with this datagram.
+fn delivered_after(millis: u64, from: u32, to: u32) -> Story {
+    let mut story = story();
+    story.setting.simulated = true;
+    story.sends(600, 2, 1, 1);
+    for robot in 0..3 {
+        story.report(500, robot, ("broadcast", "join"), [("group", 1u32.into())]);
+    }
+    let datagram = |story: &mut Story, at: u64| {
+        if at == millis {
+            story.sends(at, from, 1, to);
+        }
+    };
+    datagram(&mut story, 900);
+    sends(&mut story, 1000, 0, 1, "total");
+    datagram(&mut story, 1100);
+    handed(&mut story, 1200, 0, (0, 1));
+    for robot in 1..3 {
+        story.sends(1300, 0, 1 + robot, robot);
+        handed(&mut story, 1400, robot, (0, 1));
+    }
+    story
+}
+
+#[test]
+fn no_robot_delivers_what_no_majority_can_have() {
+    assert_none(&delivered_after(1100, 0, 1).verdict(9000));
+    for story in [delivered_after(900, 0, 1), delivered_after(1100, 1, 2)] {
+        assert_only(&story.verdict(9000), "broadcast.agreement", 1200, &[0]);
+    }
+}
+
+#[test]
+fn only_a_corruption_excuses_a_log_that_differs() {
+    let leaves = |story: &mut Story, reason: &'static str| {
+        story.report(2000, 1, ("broadcast", "leave"), [("reason", reason.into())]);
+    };
+    let mut lost = ordered([[(0, 1), (1, 1)]; 3]);
+    leaves(&mut lost, "lost");
+    assert_none(&lost.verdict(9000));
+    let mut differs = ordered([[(0, 1), (1, 1)]; 3]);
+    leaves(&mut differs, "corrupt");
+    assert_only(&differs.verdict(9000), "broadcast.total_order", 2000, &[1]);
+    let mut corrupted = ordered([[(0, 1), (1, 1)]; 3]);
+    corrupted.fault(1900, Some(1), "corrupt state");
+    leaves(&mut corrupted, "corrupt");
+    assert_none(&corrupted.verdict(9000));
+}
