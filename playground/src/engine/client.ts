@@ -1,7 +1,7 @@
 // The page's end of the worker: requests with answers, and updates as they come.
 
 import { simulator } from "./simulator.ts";
-import type { Diagnostic, FromWorker, Request, ToWorker, Update } from "./types.ts";
+import type { Diagnostic, FromWorker, Needed, Request, ToWorker, Update } from "./types.ts";
 
 /** An error of the simulator, with its single problems if there are any. */
 export class EngineError extends Error {
@@ -72,9 +72,13 @@ export class Client {
   }
 }
 
-async function give(worker: Worker, needed: "module" | "hearing"): Promise<void> {
+async function give(worker: Worker, needed: Needed): Promise<void> {
   const say = (message: ToWorker) => worker.postMessage(message);
   if (needed === "hearing") return say({ heard: true });
+  if (needed === "picture") {
+    requestAnimationFrame(() => say({ drawn: true }));
+    return;
+  }
   try {
     say({ module: await simulator() });
   } catch (error) {

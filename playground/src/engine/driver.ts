@@ -20,12 +20,20 @@ import {
 /** Time of the processor that a slice takes, and the pause after it in which the page is heard, ms. */
 const SLICE = 12;
 const BREATH = 4;
-/** The least time from one slice to the next, ms: no screen shows more pictures than one in this time. */
+/** The longest pause before the next slice while the page makes no picture, ms. */
 const PICTURE = 15;
-/** While the run is not shown in its own pace, the least time between updates, ms. */
+/**
+ * While the run is not shown in its own pace, the least time between updates, ms. Also the longest time without one:
+ * a page that is not visible makes no pictures.
+ */
 const REPORT_EVERY = 500;
 
-type Post = (update: Update, transfer: Transferable[]) => void;
+/** The page, as a run sees it. */
+interface Page {
+  post(update: Update, transfer: Transferable[]): void;
+  /** Resolves when the page makes its next picture. */
+  picture(): Promise<void>;
+}
 
 export class Driver {
   readonly opened: Opened;
@@ -57,7 +65,7 @@ export class Driver {
     private readonly engine: Engine,
     opened: Opened,
     status: Status,
-    private readonly post: Post,
+    private readonly page: Page,
   ) {
     this.opened = opened;
     this.#status = status;
@@ -66,11 +74,11 @@ export class Driver {
     this.#places = JSON.stringify(opened.world);
   }
 
-  static async start(engine: Engine, run: ServerRun, post: Post): Promise<Driver> {
+  static async start(engine: Engine, run: ServerRun, page: Page): Promise<Driver> {
     const { title, seed, duration, warnings } = run;
     const [fleet, world] = [await engine.fleet(), await engine.world()];
     const opened = { title, seed, duration, stepLength: run.step_length, warnings, fleet, world, live: true };
-    const driver = new Driver(engine, opened, await engine.status(), post);
+    const driver = new Driver(engine, opened, await engine.status(), page);
     await driver.#run({ steps: 0 });
     return driver;
   }
@@ -186,7 +194,9 @@ export class Driver {
     return turn;
   }
 
+  /** Plays. The page gets one update for each of its pictures: what it does with an update that is not seen is lost. */
   async #play(speed: number, playing: symbol): Promise<void> {
+    let [isSeen, updated, picture] = [true, 0, Promise.resolve()];
     let shown = { real: performance.now(), simulated: this.#status.now };
     while (this.#playing === playing) {
       const began = performance.now();
@@ -198,8 +208,16 @@ export class Driver {
       if (this.#status.now < due || speed === Infinity) shown = { real, simulated: this.#status.now };
       this.#pace = (this.#status.now - this.#paceFrom.simulated) / ((real - this.#paceFrom.real) / 1000);
       if (real - this.#paceFrom.real > 1000) this.#paceFrom = { real, simulated: this.#status.now };
-      await this.#exclusive(() => this.#update(this.#playing !== playing, stopped));
-      await breath(Math.max(BREATH, PICTURE - (performance.now() - began)));
+      const ended = this.#playing !== playing;
+      if (isSeen || ended || real - updated > REPORT_EVERY) {
+        await this.#exclusive(() => this.#update(ended, stopped));
+        [isSeen, updated] = [false, real];
+        picture = this.page.picture().then(() => {
+          isSeen = true;
+        });
+      }
+      await breath();
+      if (!isSeen) await Promise.race([picture, breath(PICTURE - (performance.now() - began))]);
     }
   }
 
@@ -312,7 +330,7 @@ export class Driver {
       stopped,
       pace: this.#pace,
     };
-    this.post(update, joined ? [frame.buffer, joined.buffer] : [frame.buffer]);
+    this.page.post(update, joined ? [frame.buffer, joined.buffer] : [frame.buffer]);
   }
 }
 

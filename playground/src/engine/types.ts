@@ -145,15 +145,21 @@ export type ToWorker =
   | { module: WebAssembly.Module }
   | { noModule: string }
   /** The answer to `needs`: all updates before it are shown. */
-  | { heard: true };
+  | { heard: true }
+  /** The answer to `needs`: the page makes a picture. */
+  | { drawn: true };
+
+/** An answer of the page that a worker waits for. */
+export type Needed = "module" | "hearing" | "picture";
 
 export type FromWorker =
   | { id: number; ok: unknown }
   | { id: number; error: { message: string; diagnostics: starl.Diagnostic[] } }
   | { update: Update }
-  /** The worker simulates, and needs the module for that. */
-  | { needs: "module" }
-  /** The worker continues when the page has taken all updates, so that they do not pile up. */
-  | { needs: "hearing" }
+  /**
+   * The module, to simulate with; an answer when the page has taken all updates, so that they do not pile up; an answer
+   * when it makes its next picture.
+   */
+  | { needs: Needed }
   /** An error without a request; the run cannot continue. */
   | { failed: string };

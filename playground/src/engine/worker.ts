@@ -42,10 +42,21 @@ async function heard(): Promise<void> {
   });
 }
 
+let drawn: (() => void) | null = null;
+
+/** Resolves when the page makes its next picture. */
+function picture(): Promise<void> {
+  return new Promise((resolve) => {
+    drawn = resolve;
+    say({ needs: "picture" });
+  });
+}
+
 let shown: Driver | Playback | null = null;
 
 const say = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
 const post = (update: Update, transfer: Transferable[]) => say({ update }, transfer);
+const page = { post, picture };
 
 self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   if ("module" in data) return given?.resolve(data.module);
@@ -53,6 +64,7 @@ self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
     unheard--;
     return hearing?.();
   }
+  if ("drawn" in data) return drawn?.();
   if ("noModule" in data) return given?.reject(new Error(data.noModule));
   const { id, request } = data;
   try {
@@ -111,20 +123,20 @@ async function simulateAgain(): Promise<Driver> {
   if (!shown || shown instanceof Driver) throw new Refused("no trace is open");
   const { title } = shown.opened;
   const simulation = (await starl()).openRecorded(await shown.recorded(), { topics: RECORDED });
-  return Driver.start(simulation, { ...simulation, title: `${title}, run again`, simulation: 0 }, post);
+  return Driver.start(simulation, { ...simulation, title: `${title}, run again`, simulation: 0 }, page);
 }
 
 async function start(source: Exclude<Source, { kind: "again" }>): Promise<Driver | Playback> {
   switch (source.kind) {
     case "files": {
       const simulation = (await starl()).open(source.files, { ...source.options, topics: RECORDED });
-      return Driver.start(simulation, { ...simulation, simulation: 0 }, post);
+      return Driver.start(simulation, { ...simulation, simulation: 0 }, page);
     }
     case "server": {
       const url = new URL("engine", self.location.origin);
       url.protocol = url.protocol.replace("http", "ws");
       const socket = await Socket.connect(url.href);
-      return Driver.start(remote(socket, source.opened.simulation), source.opened, post);
+      return Driver.start(remote(socket, source.opened.simulation), source.opened, page);
     }
     case "trace":
     case "fleet": {

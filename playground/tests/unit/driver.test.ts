@@ -18,20 +18,24 @@ beforeAll(async () => {
 });
 
 /** A run with what the page would know of it. */
-async function start(options: Options) {
+async function start(options: Options, picture = () => Promise.resolve()) {
   const simulation = starl.open({}, { ...options, topics: RECORDED });
   const [history, events] = [new History(), new Events()];
   let last: Update | null = null;
-  const driver = await Driver.start(simulation, { ...simulation, simulation: 0 }, (update) => {
+  let updates = 0;
+  const post = (update: Update) => {
     last = update;
+    updates++;
     if (update.cut !== null) {
       history.cut(update.cut);
       events.cut(update.position);
     }
     if (update.frames) history.add(update.frames);
     events.add(update.records);
-  });
-  return { driver, history, events, update: () => last as unknown as Update };
+  };
+  const driver = await Driver.start(simulation, { ...simulation, simulation: 0 }, { post, picture });
+  const update = () => last as unknown as Update;
+  return { driver, history, events, update, updates: () => updates };
 }
 
 const story = (events: Events) =>
@@ -49,7 +53,30 @@ function straight(options: Options, until: number, steered?: { at: number; inter
   return { digest: simulation.report().digest, records };
 }
 
+const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
+
 describe("a run that is shown", () => {
+  test("sends one update for each picture of the page", async () => {
+    let draw = () => {};
+    const { driver, updates } = await start(RACE, () => new Promise((resolve) => (draw = resolve)));
+    driver.play(1);
+    // More slowly than the run has slices.
+    for (let picture = 0; picture < 6; picture++) {
+      await expect.poll(updates).toBe(picture + 1);
+      await wait(60);
+      expect(updates()).toBe(picture + 1);
+      draw();
+    }
+    await driver.pause();
+  });
+
+  test("goes on while the page makes no pictures", async () => {
+    const { driver, update, updates } = await start(RACE, () => new Promise(() => {}));
+    driver.play(Infinity);
+    await expect.poll(() => update()?.over, { timeout: 20_000 }).toBe(true);
+    expect(updates()).toBeLessThan(40);
+  });
+
   test("has the same digest after going back and forth", async () => {
     const { driver, update } = await start(RACE);
     await driver.seek(10);

@@ -6,9 +6,8 @@ import { hovered } from "../pick.ts";
 import type { Scene } from "../scene.ts";
 import { LEFT } from "../scene.ts";
 import type { View } from "../view.ts";
+import { BOLD, PLAIN, Texts } from "./texts.ts";
 
-const FONT = '12px system-ui, "Segoe UI", Roboto, sans-serif';
-const BOLD = `600 ${FONT}`;
 /** Labels have room of their own in cells of so many pixels. */
 const CELL = 6;
 /** More robots or waypoints get no names. */
@@ -19,18 +18,27 @@ export class Labels {
   #cells = new Uint8Array();
   #columns = 0;
   #rows = 0;
-  #widths: Record<string, Map<string, number>> = {
-    [FONT]: new Map<string, number>(),
-    [BOLD]: new Map<string, number>(),
-  };
+  #names = new Texts(BOLD);
+  #quiet = new Texts(PLAIN);
+  #alarming = new Texts(PLAIN);
+  #placeNames = new Texts(PLAIN);
   #shown: number[] = [];
   #at = new Float32Array(3);
 
-  draw(context: CanvasRenderingContext2D, scene: Scene, view: View, screen: Float32Array): void {
+  /** `ratio` is how many pixels of the screen are in a CSS pixel. */
+  draw(
+    context: CanvasRenderingContext2D,
+    scene: Scene,
+    view: View,
+    screen: Float32Array,
+    ratio: number,
+  ): void {
     this.#clear(view);
-    context.textBaseline = "middle";
-    context.lineJoin = "round";
-    context.lineWidth = 3;
+    const { css } = scene.palette;
+    this.#names.use(ratio, css.text, css.floor);
+    this.#quiet.use(ratio, css.muted, css.floor);
+    this.#alarming.use(ratio, css.violation, css.floor);
+    this.#placeNames.use(ratio, css["way-point"], css.floor);
     this.#robots(context, scene, screen);
     if (!scene.hidden.has("marks")) this.#marks(context, scene, view);
     if (!scene.hidden.has("wayPoints")) this.#places(context, scene, view);
@@ -74,17 +82,14 @@ export class Labels {
     const top = y - off * 0.75 - 6;
     // Most of a crowd end here, before they cost more.
     if (!always && !this.#isFree(left, top)) return false;
-    const gap = state ? 5 : 0;
-    const width =
-      this.#width(context, BOLD, member.name) + gap + (state ? this.#width(context, FONT, state) : 0);
+    const states = condition >= 2 ? this.#alarming : this.#quiet;
+    const nameWidth = this.#names.width(context, member.name);
+    const width = nameWidth + (state ? 5 + states.width(context, state) : 0);
     // At the right edge it stands on the other side.
     if (left + width > this.#columns * CELL) left = x - off * 0.75 - width;
     if (!this.#take(left - 2, top - 8, width + 4, 16, always)) return false;
-    this.#write(context, scene, BOLD, member.name, left, top, scene.palette.css.text);
-    if (state) {
-      const color = condition >= 2 ? scene.palette.css.violation : scene.palette.css.muted;
-      this.#write(context, scene, FONT, state, left + width - this.#width(context, FONT, state), top, color);
-    }
+    this.#names.draw(context, member.name, left, top);
+    if (state) states.draw(context, state, left + nameWidth + 5, top);
     return true;
   }
 
@@ -94,9 +99,9 @@ export class Labels {
       if (shape !== "text" || !place) continue;
       view.project(place.x, place.y, place.z, this.#at);
       const [x = 0, y = 0, scale = 0] = this.#at;
-      const width = this.#width(context, BOLD, label);
+      const width = this.#names.width(context, label);
       if (scale === 0 || !this.#take(x - width / 2, y - 8, width, 16, false)) continue;
-      this.#write(context, scene, BOLD, label, x - width / 2, y, scene.palette.css.text);
+      this.#names.draw(context, label, x - width / 2, y);
     }
   }
 
@@ -110,11 +115,11 @@ export class Labels {
       const [x = 0, y = 0, scale = 0] = this.#at;
       const isHovered = hovered.value?.kind === "way_point" && hovered.value.name === name;
       if (scale === 0 || (!isHovered && (left <= 0 || scene.hidden.has("labels")))) continue;
-      const width = this.#width(context, FONT, name);
+      const width = this.#placeNames.width(context, name);
       const free = this.#take(x + 9 - margin, y + 1 - margin, width + 2 * margin, 14 + 2 * margin, isHovered);
       if (!free) continue;
       left--;
-      this.#write(context, scene, FONT, name, x + 9, y + 8, scene.palette.css["way-point"]);
+      this.#placeNames.draw(context, name, x + 9, y + 8);
     }
   }
 
@@ -124,39 +129,10 @@ export class Labels {
       if (holder !== null || (scene.hidden.has("labels") && !isHovered)) continue;
       view.project(position.x, position.y, position.z, this.#at);
       const [x = 0, y = 0, scale = 0] = this.#at;
-      const width = this.#width(context, FONT, name);
+      const width = this.#quiet.width(context, name);
       if (scale === 0 || !this.#take(x + 10, y - 22, width, 16, isHovered)) continue;
-      this.#write(context, scene, FONT, name, x + 10, y - 14, scene.palette.css.muted);
+      this.#quiet.draw(context, name, x + 10, y - 14);
     }
-  }
-
-  #write(
-    context: CanvasRenderingContext2D,
-    scene: Scene,
-    font: string,
-    text: string,
-    x: number,
-    y: number,
-    color: string,
-  ) {
-    context.font = font;
-    context.strokeStyle = scene.palette.css.floor;
-    context.strokeText(text, x, y);
-    context.fillStyle = color;
-    context.fillText(text, x, y);
-  }
-
-  #width(context: CanvasRenderingContext2D, font: string, text: string): number {
-    const widths = this.#widths[font] ?? new Map<string, number>();
-    let width = widths.get(text);
-    if (width === undefined) {
-      // States may be any number of texts.
-      if (widths.size > 5000) widths.clear();
-      context.font = font;
-      width = context.measureText(text).width;
-      widths.set(text, width);
-    }
-    return width;
   }
 
   #clear({ width, height }: View): void {

@@ -48,7 +48,7 @@ export class Overlay {
     if (!scene.hidden.has("events")) this.#flashes(scene);
     drawMessages(this.#pen, scene, this.#screen);
     this.#conditions(scene);
-    this.#labels.draw(context, scene, view, this.#screen);
+    this.#labels.draw(context, scene, view, this.#screen, ratio);
     this.#measure(scene);
     this.#move(scene);
     if (!scene.hidden.has("grid")) this.#scale(scene);
