@@ -11,6 +11,9 @@ const HALF = 10;
 /** With more texts all are forgotten: states may be any number of texts. */
 const MOST = 2000;
 
+/** Where all of them are drawn. */
+let easel: OffscreenCanvas | null = null;
+
 interface Text {
   /** Width of the letters, px. */
   width: number;
@@ -60,9 +63,12 @@ export class Texts {
 
   #drawn(text: string, width: number): ImageBitmap | null {
     const { ratio, color, floor } = this.#look;
-    const canvas = new OffscreenCanvas(Math.ceil((width + 2 * OUTLINE) * ratio), Math.ceil(2 * HALF * ratio));
-    const context = canvas.getContext("2d");
+    easel ??= new OffscreenCanvas(1, 1);
+    const context = easel.getContext("2d");
     if (!context) return null;
+    // This also clears it, and resets the context.
+    easel.width = Math.ceil((width + 2 * OUTLINE) * ratio);
+    easel.height = Math.ceil(2 * HALF * ratio);
     context.scale(ratio, ratio);
     context.font = this.font;
     context.textBaseline = "middle";
@@ -72,7 +78,7 @@ export class Texts {
     context.strokeText(text, OUTLINE, HALF);
     context.fillStyle = color;
     context.fillText(text, OUTLINE, HALF);
-    return canvas.transferToImageBitmap();
+    return easel.transferToImageBitmap();
   }
 
   #forget(): void {
