@@ -10,6 +10,10 @@ use starl_core::{Duration, RobotId, Time};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
+/// A receiver waits for a missing message for at least 2 s if its sender does not answer. It looks four times a second, by
+/// a clock that may drift.
+const PATIENCE: Duration = Duration::from_millis(1500);
+
 /// Messages are forgotten after this time: later deliveries of them are not judged.
 const MEMORY: Duration = Duration::from_seconds(300);
 
@@ -18,8 +22,8 @@ type Past = BTreeMap<Process, u32>;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Causality {
-    /// The predecessors of each message.
-    before: BTreeMap<MessageKey, Arc<Past>>,
+    /// The predecessors of each message, and when it was sent.
+    before: BTreeMap<MessageKey, (Arc<Past>, Time)>,
     sent: VecDeque<(Time, MessageKey)>,
     /// The past of each robot: messages that it sent and delivered, and their predecessors.
     known: BTreeMap<RobotId, Past>,
@@ -29,10 +33,18 @@ pub(super) struct Causality {
     lives: BTreeMap<Process, u64>,
     /// By receiver and sender, the latest life of which something was delivered or passed over.
     latest: BTreeMap<(RobotId, RobotId), u64>,
+    /// When each robot, since it last crashed, first delivered a message of each process.
+    heard: BTreeMap<RobotId, BTreeMap<Process, Time>>,
+    /// The last crash of each robot.
+    crashed: BTreeMap<RobotId, Time>,
+    /// The last message of each process that its sender gave up.
+    failed: Past,
 }
 
 impl Causality {
-    pub fn begin_anew(&mut self, robot: RobotId) {
+    pub fn begin_anew(&mut self, robot: RobotId, at: Time) {
+        self.crashed.insert(robot, at);
+        self.heard.remove(&robot);
         self.known.remove(&robot);
         self.settled.remove(&robot);
         self.latest.retain(|(receiver, _), _| *receiver != robot);
@@ -48,7 +60,7 @@ impl Causality {
         let lives = self.lives.len() as u64;
         self.lives.entry((robot, key.incarnation)).or_insert(lives);
         let known = self.known.entry(robot).or_default();
-        self.before.insert(key, Arc::new(known.clone()));
+        self.before.insert(key, (Arc::new(known.clone()), at));
         self.sent.push_back((at, key));
         known.insert((robot, key.incarnation), key.number);
     }
@@ -66,13 +78,38 @@ impl Causality {
         latest.is_some_and(|latest| self.lives.get(&process).is_some_and(|life| life < latest))
     }
 
-    pub fn passed(&mut self, robot: RobotId, key: MessageKey) {
+    /// A sender gives a message up.
+    pub fn failed(&mut self, key: MessageKey) {
+        raise(&mut self.failed, (key.from, key.incarnation), key.number);
+    }
+
+    pub fn passed(&mut self, robot: RobotId, key: MessageKey, at: Time, finding: &mut Finding<'_>) {
+        if self.is_owed(robot, key, at) {
+            let text = format!(
+                "passed over message {} of robot {} within {PATIENCE} of its broadcast",
+                key.number, key.from
+            );
+            finding.add(CAUSAL, key.from, text);
+        }
         self.settle(robot, (key.from, key.incarnation));
         let settled = self.settled.entry(robot).or_default();
         raise(settled, (key.from, key.incarnation), key.number);
     }
 
-    pub fn handed(&mut self, robot: RobotId, key: MessageKey, finding: &mut Finding<'_>) {
+    /// Whether a robot must still wait for a message: it knew the sender's life, which has neither ended nor given the
+    /// message up.
+    fn is_owed(&self, robot: RobotId, key: MessageKey, at: Time) -> bool {
+        let process = (key.from, key.incarnation);
+        let Some(&(_, sent)) = self.before.get(&key) else {
+            return false;
+        };
+        let heard = self.heard.get(&robot).and_then(|heard| heard.get(&process));
+        let has_crashed = self.crashed.get(&key.from).is_some_and(|&at| at >= sent);
+        let is_failed = self.failed.get(&process) >= Some(&key.number);
+        at < sent + PATIENCE && heard.is_some_and(|&at| at < sent) && !has_crashed && !is_failed
+    }
+
+    pub fn handed(&mut self, robot: RobotId, key: MessageKey, at: Time, finding: &mut Finding<'_>) {
         let process = (key.from, key.incarnation);
         let number = key.number;
         if self.is_over(robot, process) {
@@ -83,6 +120,8 @@ impl Causality {
             finding.add(CAUSAL, key.from, text);
         }
         self.settle(robot, process);
+        let heard = self.heard.entry(robot).or_default();
+        heard.entry(process).or_insert(at);
         let settled = self.settled.entry(robot).or_default();
         if settled.get(&process).is_some_and(|&last| last >= number) {
             let text = format!(
@@ -91,7 +130,7 @@ impl Causality {
             );
             finding.add(CAUSAL, key.from, text);
         }
-        let Some(before) = self.before.get(&key) else {
+        let Some((before, _)) = self.before.get(&key) else {
             return;
         };
         // Its own messages are not handed to a robot.

@@ -73,11 +73,11 @@ impl Instance {
     }
 
     /// The robots that delivered messages of an instance start again.
-    fn begin_anew(&mut self, robot: RobotId) {
+    fn begin_anew(&mut self, robot: RobotId, at: Time) {
         self.handed.remove(&robot);
         self.sequences.end(robot);
         if let Some(causality) = &mut self.causality {
-            causality.begin_anew(robot);
+            causality.begin_anew(robot, at);
         }
     }
 }
@@ -189,7 +189,7 @@ impl BroadcastOrder {
             }
             BroadcastEvent::PassOver { from, message } => {
                 if let Some(causality) = &mut instance.causality {
-                    causality.passed(robot, report.message(*from, *message));
+                    causality.passed(robot, report.message(*from, *message), at, &mut finding);
                 }
             }
             BroadcastEvent::Leave {
@@ -203,9 +203,14 @@ impl BroadcastOrder {
                 instance.sequences.gap(robot);
                 self.agreement.joined(port, robot, at);
             }
-            BroadcastEvent::Transfer(TransferEvent::Fail { message, .. }) if instance.is_total => {
-                self.agreement
-                    .failed(report.message(robot, *message), &mut self.excused);
+            BroadcastEvent::Transfer(TransferEvent::Fail { message, .. }) => {
+                let key = report.message(robot, *message);
+                if instance.is_total {
+                    self.agreement.failed(key, &mut self.excused);
+                }
+                if let Some(causality) = &mut instance.causality {
+                    causality.failed(key);
+                }
             }
             _ => {}
         }
@@ -234,7 +239,7 @@ impl Instance {
             _ => {}
         }
         if let Some(causality) = &mut self.causality {
-            causality.handed(robot, key, finding);
+            causality.handed(robot, key, finding.report.at, finding);
         }
         if self.is_total {
             self.sequences.handed(robot, key, finding);
@@ -298,7 +303,7 @@ impl Checker for BroadcastOrder {
                     (Some(robot), Fault::Crash) => {
                         self.unordered.forget(robot);
                         for instance in self.instances.values_mut() {
-                            instance.begin_anew(robot);
+                            instance.begin_anew(robot, record.at);
                         }
                     }
                     (Some(_), Fault::CorruptState) => {

@@ -116,6 +116,54 @@ fn messages_that_were_passed_over_are_not_delivered() {
     );
 }
 
+/// Robot 2 has delivered a message of robot 0 before its next one, which it will pass over.
+fn known_sender() -> Story {
+    let mut story = story();
+    sends(&mut story, 500, 0, 1, "causal");
+    handed(&mut story, 600, 2, (0, 1));
+    sends(&mut story, 1000, 0, 2, "causal");
+    story
+}
+
+#[test]
+fn a_missing_message_is_waited_for() {
+    let mut early = known_sender();
+    passes(&mut early, 2400, 2, (0, 2));
+    assert_only(
+        &early.verdict(9000),
+        "broadcast.causal_order",
+        2400,
+        &[2, 0],
+    );
+    let mut late = known_sender();
+    passes(&mut late, 2600, 2, (0, 2));
+    assert_none(&late.verdict(9000));
+}
+
+#[test]
+fn a_message_that_will_not_come_is_not_waited_for() {
+    let mut crashed = known_sender();
+    crashed.fault(1100, Some(0), "crash");
+    passes(&mut crashed, 1400, 2, (0, 2));
+    assert_none(&crashed.verdict(9000));
+    let mut restarted = known_sender();
+    restarted.fault(1100, Some(2), "crash");
+    restarted.fault(1200, Some(2), "restart");
+    passes(&mut restarted, 1400, 2, (0, 2));
+    assert_none(&restarted.verdict(9000));
+    let mut given_up = known_sender();
+    let fields = [
+        ("number", 2u32.into()),
+        ("incarnation", 7u32.into()),
+        ("to", vec![RobotId(2)].into()),
+    ];
+    given_up.report(1300, 0, ("broadcast", "fail"), fields);
+    passes(&mut given_up, 1400, 2, (0, 2));
+    let verdict = given_up.verdict(9000);
+    let is_about_order = |found: &Violation| found.property == "broadcast.causal_order";
+    assert!(!verdict.iter().any(is_about_order));
+}
+
 /// Robot 0 sends a message in each of two lives; robot 1 delivers both and sends one.
 fn two_lives() -> Story {
     let mut story = story();
