@@ -146,7 +146,8 @@ fn the_primitive_keeps_its_promises_under_every_fault() {
 fn a_total_order_without_a_majority_is_found_out() {
     let (violated, delivered) = judge(fleet(5, 1), Presumptuous::default(), "deliver");
     assert!(delivered > 200);
-    assert_eq!(violated, [] as [&str; 0], "without faults it does well");
+    // Without faults too it delivers what nobody else can have yet, but all deliver the same.
+    assert_eq!(violated, ["broadcast.agreement"]);
     let found = (0..4).filter(|&seed| {
         let mut scenario = fleet(5, seed);
         scenario.faults.rates.partition = 0.05;
