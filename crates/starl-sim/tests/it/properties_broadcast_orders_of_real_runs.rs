@@ -146,7 +146,7 @@ fn the_primitive_keeps_its_promises_under_every_fault() {
 fn a_total_order_without_a_majority_is_found_out() {
     let (violated, delivered) = judge(fleet(5, 1), Presumptuous::default(), "deliver");
     assert!(delivered > 200);
-    // Without faults too it delivers what nobody else can have yet, but all deliver the same.
+    // Without faults too it delivers what no other robot can have yet, but all deliver the same.
     assert_eq!(violated, ["broadcast.agreement"]);
     let found = (0..4).filter(|&seed| {
         let mut scenario = fleet(5, seed);
