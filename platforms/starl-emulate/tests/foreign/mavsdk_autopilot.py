@@ -2,8 +2,8 @@
 
     python3 mavsdk_autopilot.py STARL
 
-The autopilot says that it is PX4. It follows set-points of velocity as a point without mass. The command's fleet of one
-robot visits two waypoints and lands.
+The autopilot says that it is PX4. It follows set-points of level velocity with the gain of PX4's loop, and those of the
+vertical velocity at once. The command's fleet of one robot visits two waypoints and lands.
 """
 
 import itertools
@@ -30,6 +30,8 @@ ARMED, CUSTOM_MODE = 128, 1
 MODES = {action_server.FlightMode.HOLD: 4 << 16 | 3 << 24, action_server.FlightMode.OFFBOARD: 6 << 16}
 LAND_MODE = 4 << 16 | 6 << 24
 PERIOD = 0.02
+# From an error of velocity to an acceleration, 1/s: PX4's MPC_XY_VEL_P_ACC.
+GAIN = 1.8
 
 SCENARIO = """
 program = "tour.starl"
@@ -91,7 +93,9 @@ class Autopilot:
         self.mode, self.armed = MODES[action_server.FlightMode.HOLD], False
         # North, east, down, and yaw to the right.
         self.place, self.yaw = [0.0, 0.0, 0.0], 0.0
-        self.velocity, self.turn = [0.0, 0.0, 0.0], 0.0
+        self.velocity = [0.0, 0.0, 0.0]
+        # The set-points.
+        self.wanted, self.turn = [0.0, 0.0, 0.0], 0.0
         self.visited, self.told, self.alive = [], [], True
         self.begun = time.time()
         self.thread = threading.Thread(target=self.run)
@@ -120,7 +124,7 @@ class Autopilot:
         assert (target["coordinate_frame"], target["type_mask"]) == (8, 0b010111000111), target
         ahead, right, down = (target[key] for key in ("vx", "vy", "vz"))
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
-        self.velocity = [cos * ahead - sin * right, sin * ahead + cos * right, down]
+        self.wanted = [cos * ahead - sin * right, sin * ahead + cos * right, down]
         self.turn = target["yaw_rate"]
 
     def send(self, name, fields):
@@ -131,9 +135,11 @@ class Autopilot:
         while self.alive:
             time.sleep(PERIOD)
             if self.mode == LAND_MODE:
-                self.velocity, self.turn = [0.0, 0.0, 0.5], 0.0
+                self.wanted, self.turn = [0.0, 0.0, 0.5], 0.0
             elif not self.armed or self.mode != MODES[action_server.FlightMode.OFFBOARD]:
-                self.velocity, self.turn = [0.0, 0.0, 0.0], 0.0
+                self.wanted, self.turn = [0.0, 0.0, 0.0], 0.0
+            level = [v + PERIOD * GAIN * (w - v) for v, w in zip(self.velocity[:2], self.wanted[:2])]
+            self.velocity = level + [self.wanted[2]]
             self.place = [p + PERIOD * v for p, v in zip(self.place, self.velocity)]
             self.yaw += PERIOD * self.turn
             if self.place[2] >= 0.0:
