@@ -12,7 +12,7 @@ use super::runs::Runs;
 use crate::handshake::Handshake;
 use alloc::collections::BTreeMap;
 use smallvec::SmallVec;
-use starl_core::{Duration, Payload, Time};
+use starl_core::{Payload, Time};
 
 /// Messages to deliver, by number.
 pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
@@ -58,8 +58,7 @@ impl Inbox {
         let attempt = self.asking.attempt;
         self.asking.due = (attempt < options.retries).then(|| {
             let share = f64::from(token) / f64::from(u32::MAX);
-            let factor = 1.0 + options.safe_jitter() * share;
-            now + Duration::from_seconds_f64(options.timeout(attempt).seconds() * factor)
+            now + options.stretched(attempt, share)
         });
         self.asking.attempt = attempt.saturating_add(1);
     }

@@ -76,9 +76,7 @@ impl Line {
 
     /// A time-out with its jitter.
     pub fn stretched(&self, robot: &mut Robot<'_>, attempt: u32) -> Duration {
-        let timeout = self.options.timeout(attempt).seconds();
-        let factor = 1.0 + self.options.safe_jitter() * robot.random().uniform();
-        Duration::from_seconds_f64(timeout * factor)
+        self.options.stretched(attempt, robot.random().uniform())
     }
 
     /// Says how far the stream is, with these messages.

@@ -49,8 +49,14 @@ impl Options {
         doubled.min(self.longest_timeout.max(self.first_timeout))
     }
 
+    /// The time-out after the transmission numbered `attempt`, with this share of the jitter, in [0, 1].
+    pub(super) fn stretched(&self, attempt: u32, share: f64) -> Duration {
+        let factor = 1.0 + self.safe_jitter() * share;
+        Duration::from_seconds_f64(self.timeout(attempt).seconds() * factor)
+    }
+
     /// The jitter, made a number in [0, 1].
-    pub(super) fn safe_jitter(&self) -> f64 {
+    fn safe_jitter(&self) -> f64 {
         // Written so that NaN becomes zero.
         if self.jitter > 0.0 {
             self.jitter.min(1.0)
