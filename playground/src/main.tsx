@@ -3,13 +3,13 @@
 import { render } from "preact";
 import { App } from "./app/App.tsx";
 import { askHost, run, start } from "./app/context.ts";
+import { expectsRun, loadRobots, loadScreen, loadStage, loadTimeline } from "./app/loads.ts";
 import { simulator } from "./engine/simulator.ts";
 import { begin } from "./project/begin.ts";
 import { returning } from "./project/project.ts";
 import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/controls.css";
-import { loadScreen, loadStage } from "./world/load.ts";
 
 // Everything that a run needs loads at once: the module (build/preload.ts), the worker, what the host shows, and what
 // paints runs.
@@ -18,12 +18,15 @@ void asked.then(({ mode }) => mode === "web" && simulator().catch(() => undefine
 
 const page = document.getElementById("page");
 if (!page) throw new Error("index.html has an element #page");
+// Every visit except the first shows a run, and so does one whose address names what to show.
+expectsRun.value = returning || location.search !== "";
 render(<App />, page);
-
-// Every visit except the first shows a run: what paints it loads beside everything else.
-if (returning || location.search) {
-  for (const load of [loadScreen, loadStage]) load().catch(() => undefined);
+if (expectsRun.value) {
+  for (const load of [loadScreen, loadStage, loadRobots, loadTimeline]) load().catch(() => undefined);
 }
+
+/** The time after which the page keeps itself for visits without a network, so that it does not delay the first run, ms. */
+const REST = 2000;
 
 start.value = await asked;
 switch (start.value.mode) {
@@ -38,8 +41,10 @@ switch (start.value.mode) {
       run.play();
     break;
   case "web":
+    if (expectsRun.value) import("./editor/pane.ts").catch(() => undefined);
     await begin();
     // The command serves no service worker: another command may use the same port later.
-    if (start.value.static && import.meta.env.PROD) await navigator.serviceWorker?.register("./sw.js");
+    if (start.value.static && import.meta.env.PROD)
+      setTimeout(() => navigator.serviceWorker?.register("./sw.js"), REST);
     break;
 }

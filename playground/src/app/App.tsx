@@ -10,10 +10,11 @@ import { run, start } from "./context.ts";
 import { Divider } from "./Divider.tsx";
 import { Header } from "./Header.tsx";
 import { lazy } from "./lazy.tsx";
+import { loadTimeline } from "./loads.ts";
 import { Problem } from "./Problem.tsx";
 import { Side } from "./Side.tsx";
 
-const Timeline = lazy(async () => (await import("../timeline/Timeline.tsx")).Timeline);
+const Timeline = lazy(loadTimeline);
 
 /** Which part a small screen shows. */
 export const part = signal<"write" | "world" | "inspect">("world");

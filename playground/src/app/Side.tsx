@@ -3,6 +3,7 @@
 import { violations } from "../inspect/violations.ts";
 import { run } from "./context.ts";
 import { lazy } from "./lazy.tsx";
+import { loadRobots } from "./loads.ts";
 import { sideTab } from "./side-tab.ts";
 import { type Tab, Tabs } from "./Tabs.tsx";
 
@@ -11,7 +12,7 @@ const Compare = lazy(async () => (await import("../compare/Compare.tsx")).Compar
 const Messages = lazy(async () => (await import("../messages/Messages.tsx")).Messages);
 const Plots = lazy(async () => (await import("../plots/Plots.tsx")).Plots);
 const Steer = lazy(async () => (await import("../meddle/Steer.tsx")).Steer);
-const Robots = lazy(async () => (await import("../inspect/Robots.tsx")).Robots);
+const Robots = lazy(loadRobots);
 const Properties = lazy(async () => (await import("../inspect/Properties.tsx")).Properties);
 const Log = lazy(async () => (await import("../inspect/Log.tsx")).Log);
 

@@ -3,8 +3,8 @@
 import { effect, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { run } from "../app/context.ts";
+import { expectsRun, loadScreen } from "../app/loads.ts";
 import "../styles/world.css";
-import { loadScreen } from "./load.ts";
 import { measured, pointed, tool } from "./pick.ts";
 import { Toolbar } from "./Toolbar.tsx";
 import type { WorldScreen } from "./world.ts";
@@ -24,7 +24,7 @@ export function WorldView() {
     };
     let isMade = false;
     const stop = effect(() => {
-      if (isMade || !(run.opening.value || run.opened.value)) return;
+      if (isMade || !(expectsRun.value || run.opening.value || run.opened.value)) return;
       isMade = true;
       make().catch((error) => run.complain(error));
     });

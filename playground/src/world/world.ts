@@ -2,6 +2,7 @@
 
 import { effect } from "@preact/signals";
 import { run } from "../app/context.ts";
+import { expectsRun, loadStage } from "../app/loads.ts";
 import { theme } from "../app/theme.ts";
 import { POSE_NUMBERS } from "../engine/types.ts";
 import { movingBox, wholeBox } from "./fit.ts";
@@ -9,7 +10,6 @@ import { Flat } from "./flat.ts";
 import { Hand } from "./hand.ts";
 import { Happenings } from "./happenings.ts";
 import { flat, hidden } from "./layers.ts";
-import { loadStage } from "./load.ts";
 import { Overlay } from "./overlay/overlay.ts";
 import { readPalette, robotColors } from "./palette.ts";
 import { followed, hovered, measured, moving, pointed, tool } from "./pick.ts";
@@ -59,7 +59,7 @@ export class WorldScreen {
       effect(() => this.#changed()),
       effect(() => this.#look()),
       effect(() => {
-        if (run.opening.value || run.opened.value) void this.#load();
+        if (expectsRun.value || run.opening.value || run.opened.value) void this.#load();
       }),
     );
   }
@@ -109,7 +109,7 @@ export class WorldScreen {
         event.preventDefault();
         this.#use(new Flat(this.#lower()), true);
       });
-      this.#use(new Stage(canvas), false);
+      this.#use(new Stage(canvas, () => this.request()), false);
     } catch {
       if (!this.#disposed) this.#use(new Flat(this.#lower()), true);
     }

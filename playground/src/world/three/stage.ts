@@ -26,6 +26,9 @@ import { Robots } from "./robots.ts";
 /** Fleets larger than this cast no shadows. */
 const MOST_SHADOWS = 300;
 
+/** The first pictures have no shadows: what draws them takes time to prepare, and a run should begin at once. ms */
+const SHADOWS_AFTER = 1000;
+
 export class Stage implements Painter {
   #renderer: WebGLRenderer;
   #graph = new Graph();
@@ -40,10 +43,17 @@ export class Stage implements Painter {
   #robots = new Robots();
   #drawings = new Drawings();
   #basis = new Matrix4();
+  #hasShadows = false;
+  #waiting: ReturnType<typeof setTimeout> | undefined;
 
-  /** Throws if there is no WebGL. */
-  constructor(canvas: HTMLCanvasElement) {
+  /** Throws if there is no WebGL. `again` is called when the picture should be painted once more. */
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly again: () => void,
+  ) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    // The shaders are ours and three's: asking whether they compile would only make the page wait for the answer.
+    this.#renderer.debug.checkShaderErrors = false;
     this.#renderer.shadowMap.enabled = true;
     this.#sun.castShadow = true;
     this.#sun.shadow.mapSize.set(2048, 2048);
@@ -72,9 +82,14 @@ export class Stage implements Painter {
     this.#drawings.update(scene);
     this.#robots.update(scene);
     this.#renderer.render(this.#graph, this.#aim(view));
+    this.#waiting ??= setTimeout(() => {
+      this.#hasShadows = true;
+      this.again();
+    }, SHADOWS_AFTER);
   }
 
   dispose(): void {
+    clearTimeout(this.#waiting);
     for (const part of [this.#ground, this.#places, this.#paths, this.#robots, this.#drawings])
       part.dispose();
     this.#shade.geometry.dispose();
@@ -86,7 +101,7 @@ export class Stage implements Painter {
     (this.#graph.background as Color).setRGB(...palette.rgb.page, "srgb");
     this.#sun.intensity = palette.dark ? 1.7 : 2;
     this.#sky.intensity = palette.dark ? 1.3 : 1.6;
-    const shadows = !hidden.has("shadows") && fleet.length <= MOST_SHADOWS;
+    const shadows = this.#hasShadows && !hidden.has("shadows") && fleet.length <= MOST_SHADOWS;
     this.#sun.castShadow = this.#shade.visible = shadows;
     (this.#shade.material as ShadowMaterial).opacity = palette.dark ? 0.45 : 0.22;
     const { x, y } = view.target;
