@@ -32,8 +32,8 @@ LAWS = [
 ]
 PROGRAMS = [
     "race", "diffusion", "keeper", "radio", "race.starl", "mutex.starl", "election.starl", "messages.starl",
-    "broadcast.starl", "register.starl", "memory.starl", "registration.starl", "barrier.starl", "auction.starl",
-    "formation.starl", "flocking.starl", "line.starl", "maze.starl",
+    "broadcast.starl", "register.starl", "memory.starl", "registration.starl", "barrier.starl", "detector.starl",
+    "auction.starl", "formation.starl", "flocking.starl", "line.starl", "maze.starl",
 ]  # fmt: skip
 # Programs that command their own drives name the models that they fit.
 MODELS = {

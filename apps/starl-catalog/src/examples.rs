@@ -214,6 +214,13 @@ pub const EXAMPLES: &[Example] = &[
         ["registration.starl"]
     ),
     example!(
+        "detector",
+        "robots tell each other which robots they suspect to have failed",
+        "primitives",
+        "detector.toml",
+        ["detector.starl"]
+    ),
+    example!(
         "barrier",
         "robots begin each round together",
         "primitives",

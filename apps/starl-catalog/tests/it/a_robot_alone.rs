@@ -13,6 +13,7 @@ fn programs_run_on_one_robot() {
         "memory",
         "registration",
         "barrier",
+        "detector",
         "messages",
         "broadcast",
         "flocking",

@@ -97,6 +97,10 @@ events! {
             leader: RobotId,
             /// In which epoch, if the algorithm has epochs.
             epoch: Option<u64>,
+            /// In which round of ballots, if the algorithm has ballots.
+            round: Option<u64>,
+            /// The leader's ballot in that round.
+            ballot: Option<u32>,
         },
         /// It shows no leader from now on.
         Lost = "lost",

@@ -203,11 +203,13 @@ fn events() -> Vec<PrimitiveEvent> {
         RegistrationEvent::Fail,
     ];
     events.extend(registrations.map(PrimitiveEvent::from));
-    for epoch in [None, Some(u64::MAX)] {
+    for (epoch, ballot) in [(None, Some(u32::MAX)), (Some(u64::MAX), None)] {
         events.push(
             ElectionEvent::Leader {
                 leader: peer,
                 epoch,
+                round: ballot.map(u64::from),
+                ballot,
             }
             .into(),
         );

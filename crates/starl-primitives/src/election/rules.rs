@@ -28,6 +28,10 @@ pub(super) trait Rules {
     fn due(&self, scene: &Scene<'_, '_>) -> Time;
     /// The leader known to this robot.
     fn leadership(&self, me: RobotId) -> Option<Leadership>;
+    /// The winner's round and ballot, where there are ballots.
+    fn ballot(&self) -> Option<(u64, u32)> {
+        None
+    }
     /// Takes up what storage holds, when the robot starts.
     fn recall(&mut self, scene: &mut Scene<'_, '_>) {
         let _ = scene;

@@ -95,7 +95,14 @@ impl LeaderElection {
                 Change::Lost(before.leader)
             }
             (_, Some(Leadership { leader, epoch })) => {
-                robot.report(self.port, ElectionEvent::Leader { leader, epoch });
+                let (round, ballot) = self.rules.rules().ballot().unzip();
+                let shown = ElectionEvent::Leader {
+                    leader,
+                    epoch,
+                    round,
+                    ballot,
+                };
+                robot.report(self.port, shown);
                 Change::Elected(leader)
             }
         };

@@ -35,6 +35,16 @@ pub(super) struct Member {
     /// Whether no robot could tell it the earlier promises.
     pub is_anew: bool,
     pub shown: Shown,
+    /// The outcome that it believes, with ballots.
+    outcome: Option<Outcome>,
+}
+
+/// The outcome of an election by ballots. Of two, a robot believes the greater.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Outcome {
+    pub round: u64,
+    pub ballot: u32,
+    pub leader: RobotId,
 }
 
 /// The leader that a robot shows, if any, and since when.
@@ -55,7 +65,31 @@ impl Member {
                 leader: None,
                 since: at,
             },
+            outcome: None,
         }
+    }
+
+    /// A robot believes an outcome from now on.
+    pub fn believe(&mut self, robot: RobotId, outcome: Outcome, at: Time) -> Option<Violation> {
+        let before = self
+            .outcome
+            .replace(outcome)
+            .filter(|before| *before > outcome)?;
+        let text = format!(
+            "robot {robot} shows robot {} by ballot {} of round {}, after robot {} by ballot {} of round {}",
+            outcome.leader,
+            outcome.ballot,
+            outcome.round,
+            before.leader,
+            before.ballot,
+            before.round
+        );
+        Some(Violation::new(
+            ORDER,
+            at,
+            [outcome.leader, before.leader],
+            text,
+        ))
     }
 
     fn show(&mut self, leader: Option<RobotId>, at: Time) {
@@ -107,6 +141,7 @@ impl Instance {
         self.leading.remove(&robot);
         if let Some(member) = self.members.get_mut(&robot) {
             member.show(None, at);
+            member.outcome = None;
         }
     }
 

@@ -13,7 +13,7 @@ use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
-use instance::{Instance, Member, Shown};
+use instance::{Instance, Member, Outcome, Shown};
 use starl_core::event::agreement::Algorithm;
 use starl_core::event::{ElectionEvent, Event, Fault};
 use starl_core::{Duration, Port, Record, RobotId, Time};
@@ -93,7 +93,20 @@ impl Election {
                 member.votes_since.get_or_insert(at);
                 member.is_anew = anew;
             }
-            ElectionEvent::Leader { leader, epoch } => {
+            ElectionEvent::Leader {
+                leader,
+                epoch,
+                round,
+                ballot,
+            } => {
+                if let (Some(round), Some(ballot)) = (round, ballot) {
+                    let outcome = Outcome {
+                        round,
+                        ballot,
+                        leader,
+                    };
+                    found.extend(member.believe(robot, outcome, at));
+                }
                 instance.shows(robot, leader, epoch, at, is_disturbed, &mut found);
             }
             ElectionEvent::Lost => instance.shows_none(robot, at),

@@ -174,3 +174,39 @@ fn a_leader_that_takes_no_part_is_reported() {
     let verdict = story.verdict(10_000);
     assert_only(&verdict, "election.soundness", 1000, &[3, 1]);
 }
+
+fn believes(story: &mut Story, millis: u64, robot: u32, leader: u32, drawn: (i64, i64)) {
+    let fields = [
+        ("leader", RobotId(leader).into()),
+        ("round", Value::Int(drawn.0)),
+        ("ballot", Value::Int(drawn.1)),
+    ];
+    story.report(millis, robot, ("election", "leader"), fields);
+}
+
+#[test]
+fn of_two_outcomes_of_ballots_the_greater_is_believed() {
+    let mut story = three();
+    believes(&mut story, 1000, 0, 1, (3, 50));
+    believes(&mut story, 1010, 0, 2, (3, 60));
+    believes(&mut story, 1020, 0, 1, (4, 10));
+    assert_none(&story.verdict(10_000));
+}
+
+#[test]
+fn a_lesser_outcome_of_ballots_is_not_believed() {
+    let mut story = three();
+    believes(&mut story, 1000, 0, 1, (3, 60));
+    believes(&mut story, 1010, 0, 2, (3, 50));
+    let verdict = story.verdict(10_000);
+    assert_only(&verdict, "election.order", 1010, &[2, 1]);
+}
+
+#[test]
+fn an_outcome_after_none_may_be_lesser() {
+    let mut story = three();
+    believes(&mut story, 1000, 0, 1, (3, 60));
+    loses(&mut story, 1005, 0);
+    believes(&mut story, 1010, 0, 2, (3, 50));
+    assert_none(&story.verdict(10_000));
+}

@@ -67,7 +67,15 @@ impl Naive {
     fn show(&mut self, robot: &mut Robot<'_>, leader: RobotId) {
         if self.leader.replace(leader) != Some(leader) {
             let epoch = Some(self.count);
-            robot.report(NAIVE, ElectionEvent::Leader { leader, epoch });
+            robot.report(
+                NAIVE,
+                ElectionEvent::Leader {
+                    leader,
+                    epoch,
+                    round: None,
+                    ballot: None,
+                },
+            );
         }
         self.heard = robot.now();
     }

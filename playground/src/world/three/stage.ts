@@ -46,7 +46,7 @@ export class Stage implements Painter {
   #hasShadows = false;
   #waiting: ReturnType<typeof setTimeout> | undefined;
 
-  /** Throws if there is no WebGL. `again` is called when the picture should be painted once more. */
+  /** Throws if there is no WebGL. `again` is called when the picture should be painted again. */
   constructor(
     canvas: HTMLCanvasElement,
     private readonly again: () => void,

@@ -197,6 +197,10 @@ impl Rules for Ballots {
         }
     }
 
+    fn ballot(&self) -> Option<(u64, u32)> {
+        self.outcome.map(|outcome| (outcome.round, outcome.ballot))
+    }
+
     fn leadership(&self, _: RobotId) -> Option<Leadership> {
         let leader = self.outcome?.leader;
         Some(Leadership {

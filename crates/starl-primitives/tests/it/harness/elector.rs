@@ -140,6 +140,7 @@ pub fn judge(world: &World, crashes: &[(usize, u32)]) -> Vec<(u64, u32)> {
             ElectionEvent::Leader {
                 leader: RobotId(leader),
                 epoch,
+                ..
             } => {
                 let (leader, epoch) = (*leader, epoch.expect("leases have epochs"));
                 let named = *names.entry(epoch).or_insert(leader);

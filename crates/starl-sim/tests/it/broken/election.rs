@@ -48,7 +48,15 @@ impl Program for Bully {
             match leader {
                 Some(leader) => {
                     let epoch = None;
-                    robot.report(PORT, ElectionEvent::Leader { leader, epoch });
+                    robot.report(
+                        PORT,
+                        ElectionEvent::Leader {
+                            leader,
+                            epoch,
+                            round: None,
+                            ballot: None,
+                        },
+                    );
                 }
                 None => robot.report(PORT, ElectionEvent::Lost),
             }
