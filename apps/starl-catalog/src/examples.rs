@@ -215,7 +215,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "detector",
-        "robots tell each other which robots they suspect to have failed",
+        "robots tell each other which of them seem to have failed",
         "primitives",
         "detector.toml",
         ["detector.starl"]

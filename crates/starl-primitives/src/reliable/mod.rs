@@ -27,6 +27,7 @@ mod peers;
 mod receiving;
 mod runs;
 mod sending;
+mod sorted;
 
 pub use notice::{Arrival, MessageId, Notice, Notices};
 pub use options::Options;

@@ -1,9 +1,10 @@
 //! The states of a robot's peers. Most peers are at rest, and then a few bytes are all that there is to know of each:
 //! a fleet of thousands, in which each robot has tens in reach, is simulated in one process.
 //!
-//! Invariant: each peer is in one of the two lists, which are sorted by number; it is among the busy ones only if its
-//! resting form would not say all of its state.
+//! Invariant: each peer is in one of the two maps; it is among the busy ones only if its resting form would not say all of
+//! its state.
 
+use super::sorted::Sorted;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt::Debug;
@@ -22,11 +23,9 @@ pub(super) trait Rest: Default {
 /// The states by peer.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Peers<T: Rest> {
-    resting: List<T::Resting>,
-    busy: List<Box<T>>,
+    resting: Sorted<T::Resting>,
+    busy: Sorted<Box<T>>,
 }
-
-type List<V> = Vec<(RobotId, V)>;
 
 impl<T: Rest> Peers<T> {
     pub fn len(&self) -> usize {
@@ -35,7 +34,7 @@ impl<T: Rest> Peers<T> {
 
     /// All peers, in the order of their numbers.
     pub fn numbers(&self) -> Vec<RobotId> {
-        let resting = self.resting.iter().map(|(peer, _)| *peer);
+        let resting = self.resting.iter().map(|(peer, _)| peer);
         let mut numbers: Vec<RobotId> = resting.chain(self.busy().map(|(peer, _)| peer)).collect();
         numbers.sort_unstable();
         numbers
@@ -43,72 +42,49 @@ impl<T: Rest> Peers<T> {
 
     /// The result of `read` for the state of a peer; none if it has no state.
     pub fn read<R>(&self, peer: RobotId, read: impl FnOnce(&T) -> R) -> Option<R> {
-        if let Ok(at) = place(&self.resting, peer) {
-            return Some(read(&T::woken(self.resting[at].1)));
+        match self.resting.get(peer) {
+            Some(resting) => Some(read(&T::woken(*resting))),
+            None => self.busy.get(peer).map(|state| read(state)),
         }
-        let at = place(&self.busy, peer).ok()?;
-        Some(read(&self.busy[at].1))
     }
 
     /// Takes a peer's state out. The caller puts it back with [`Peers::put`].
     pub fn take(&mut self, peer: RobotId) -> Option<T> {
-        if let Ok(at) = place(&self.resting, peer) {
-            return Some(T::woken(self.resting.remove(at).1));
+        if let Some(resting) = self.resting.remove(peer) {
+            return Some(T::woken(resting));
         }
-        let at = place(&self.busy, peer).ok()?;
-        let state = *self.busy.remove(at).1;
-        trim(&mut self.busy);
-        Some(state)
+        let state = self.busy.remove(peer)?;
+        self.busy.trim();
+        Some(*state)
     }
 
     /// Sets the state of a peer that has none here.
     pub fn put(&mut self, peer: RobotId, state: T) {
         match state.at_rest() {
-            Some(resting) => insert(&mut self.resting, peer, resting),
-            None => insert(&mut self.busy, peer, Box::new(state)),
+            Some(resting) => self.resting.insert(peer, resting),
+            None => self.busy.insert(peer, Box::new(state)),
         }
     }
 
     /// The peers that are not at rest, in the order of their numbers.
     pub fn busy(&self) -> impl Iterator<Item = (RobotId, &T)> {
-        self.busy.iter().map(|(peer, state)| (*peer, &**state))
+        self.busy.iter().map(|(peer, state)| (peer, &**state))
     }
 
     /// The state of a peer that is not at rest. The change must not put it at rest.
     pub fn busy_mut(&mut self, peer: RobotId) -> Option<&mut T> {
-        let at = place(&self.busy, peer).ok()?;
-        Some(&mut self.busy[at].1)
+        self.busy.get_mut(peer).map(|state| &mut **state)
     }
 
     /// Changes all peers that are not at rest.
     pub fn change_busy(&mut self, change: impl Fn(&mut T)) {
-        for (peer, mut state) in core::mem::take(&mut self.busy) {
+        for (peer, mut state) in self.busy.drain() {
             change(&mut state);
             match state.at_rest() {
-                Some(resting) => insert(&mut self.resting, peer, resting),
-                None => insert(&mut self.busy, peer, state),
+                Some(resting) => self.resting.insert(peer, resting),
+                None => self.busy.insert(peer, state),
             }
         }
-    }
-}
-
-fn place<V>(list: &List<V>, peer: RobotId) -> Result<usize, usize> {
-    list.binary_search_by_key(&peer, |(number, _)| *number)
-}
-
-fn insert<V>(list: &mut List<V>, peer: RobotId, value: V) {
-    let (Ok(at) | Err(at)) = place(list, peer);
-    if list.len() == list.capacity() {
-        // Doubling would leave a quarter of the room empty.
-        list.reserve_exact(list.len() / 4 + 1);
-    }
-    list.insert(at, (peer, value));
-}
-
-/// Gives room back that was needed for once.
-pub(super) fn trim<V>(list: &mut Vec<V>) {
-    if list.capacity() > 4 + 4 * list.len() {
-        list.shrink_to(2 * list.len());
     }
 }
 

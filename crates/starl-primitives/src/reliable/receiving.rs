@@ -2,7 +2,7 @@
 
 use super::inbox::{Arrived, Owed};
 use super::packet::{Packet, Stream};
-use super::peers::trim;
+use super::sorted::trim;
 use super::{Alarm, Arrival, Notice, Notices, Reliable};
 use alloc::vec::Vec;
 use starl_core::{Destination, Duration, Payload, Robot, RobotId, Time, TimerKey};
