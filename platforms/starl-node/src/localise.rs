@@ -1,12 +1,15 @@
 //! Localisation: an extended Kalman filter over odometry and external fixes.
 //!
 //! The state is the position in the floor plane and the heading; odometry moves it, fixes of an external system (motion
-//! capture, a simulator) correct it. Height is the last measured one. Between fixes the uncertainty grows with the
+//! capture, a simulator) correct it. Odometry reports motion that is over, part of which a fix in between has seen
+//! already. So when it comes, the state goes back to the measurement before, and takes the motion and the fixes in the
+//! order of their times. Height is the last measured one. Between fixes the uncertainty grows with the
 //! distance driven, as Thrun, Burgard and Fox describe it ("Probabilistic Robotics", 2005, chapter 5).
 
 use crate::Reading;
 use starl_core::math::wrap_angle;
 use starl_core::{Estimate, Point, Pose, Time, Twist};
+use std::collections::VecDeque;
 
 /// How exact the sources are, standard deviations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +40,9 @@ const GATE: f64 = 6.0;
 /// ...but not if so many in a row say so, or if nothing was heard before for so long: then the robot was carried away.
 const INSIST: u32 = 10;
 
+/// At most so many fixes between two measurements of the robot's own are kept, the latest.
+const MOST_SINCE: usize = 64;
+
 /// A velocity is measured over about this long, seconds.
 const SMOOTHING: f64 = 0.15;
 
@@ -48,14 +54,22 @@ pub struct Localiser {
     has_fixes: bool,
     state: Option<State>,
     outliers: u32,
+    /// When the robot measured its own motion last, what was believed then, and the fixes since.
+    measured: Option<(Time, Belief)>,
+    since: VecDeque<(Time, Pose)>,
+}
+
+/// A pose and the covariance of its x, y and heading.
+#[derive(Clone, Copy, Debug)]
+struct Belief {
+    pose: Pose,
+    covariance: Matrix,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct State {
-    pose: Pose,
+    belief: Belief,
     twist: Twist,
-    /// Of x, y and heading.
-    covariance: [[f64; 3]; 3],
     /// When something was measured last that keeps the position fresh.
     fresh: Time,
     /// When a fix was taken last, and the pose then, for velocities of robots without odometry.
@@ -73,6 +87,8 @@ impl Localiser {
             has_fixes,
             state,
             outliers: 0,
+            measured: None,
+            since: VecDeque::new(),
         }
     }
 
@@ -83,19 +99,38 @@ impl Localiser {
         let Some(state) = &mut self.state else {
             return;
         };
-        let turned = reading.turned.unwrap_or(0.0);
         if reading.moved.is_some() || reading.turned.is_some() {
-            state.advance(reading.moved.unwrap_or(Point::ZERO), turned, &accuracy);
+            let motion = Motion {
+                moved: reading.moved.unwrap_or(Point::ZERO),
+                turned: reading.turned.unwrap_or(0.0),
+            };
+            match self.measured {
+                Some((last, belief)) if last < at => {
+                    state.belief = belief;
+                    let share = |time: Time| time.since(last).seconds() / at.since(last).seconds();
+                    let mut done = 0.0;
+                    for (time, pose) in self.since.drain(..) {
+                        let until = share(time).clamp(done, 1.0);
+                        state.belief.advance(motion.part(done, until), &accuracy);
+                        state.correct(&pose, &accuracy);
+                        done = until;
+                    }
+                    state.belief.advance(motion.part(done, 1.0), &accuracy);
+                }
+                _ => state.belief.advance(motion, &accuracy),
+            }
+            self.since.clear();
+            self.measured = Some((at, state.belief));
             state.has_odometry = true;
             if !has_fixes {
                 state.fresh = at;
             }
         }
         if let Some(height) = reading.height {
-            state.pose.position.z = height;
+            state.belief.pose.position.z = height;
         }
         if let Some(velocity) = reading.velocity {
-            let yaw = state.pose.yaw;
+            let yaw = state.belief.pose.yaw;
             state.twist.linear = rotated(velocity, yaw);
         }
     }
@@ -126,13 +161,26 @@ impl Localiser {
                 has_odometry: state.has_odometry,
                 ..State::at(pose, at, accuracy)
             };
+            // The belief before is wrong.
+            self.measured = self.measured.map(|_| (at, state.belief));
+            self.since.clear();
         } else {
             state.correct(&pose, &accuracy);
+            match &mut self.measured {
+                Some((last, _)) if *last < at => {
+                    self.since.push_back((at, pose));
+                    if self.since.len() > MOST_SINCE {
+                        self.since.pop_front();
+                    }
+                }
+                Some((_, belief)) => *belief = state.belief,
+                None => {}
+            }
         }
         self.outliers = 0;
-        state.pose.position.z = pose.position.z;
-        state.pose.pitch = pose.pitch;
-        state.pose.roll = pose.roll;
+        state.belief.pose.position.z = pose.position.z;
+        state.belief.pose.pitch = pose.pitch;
+        state.belief.pose.roll = pose.roll;
         state.fresh = at;
         if !state.has_odometry {
             state.differentiate(at, &pose);
@@ -144,7 +192,7 @@ impl Localiser {
     pub fn estimate(&self) -> Option<(Estimate, Time)> {
         let state = self.state.as_ref()?;
         let estimate = Estimate {
-            pose: state.pose,
+            pose: state.belief.pose,
             twist: state.twist,
             ..Estimate::default()
         };
@@ -154,26 +202,34 @@ impl Localiser {
     /// Standard deviation of the position, metres.
     pub fn uncertainty(&self) -> f64 {
         self.state.as_ref().map_or(f64::INFINITY, |state| {
-            (state.covariance[0][0].max(state.covariance[1][1])).sqrt()
+            let covariance = &state.belief.covariance;
+            covariance[0][0].max(covariance[1][1]).sqrt()
         })
     }
 }
 
-impl State {
-    fn at(pose: Pose, now: Time, accuracy: Accuracy) -> State {
-        let (p, h) = (accuracy.position.powi(2), accuracy.heading.powi(2));
-        State {
-            pose,
-            twist: Twist::default(),
-            covariance: [[p, 0.0, 0.0], [0.0, p, 0.0], [0.0, 0.0, h]],
-            fresh: now,
-            fixed: None,
-            has_odometry: false,
+/// The robot's measurement of its own motion: `moved` is in its frame before the turn.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    moved: Point,
+    turned: f64,
+}
+
+impl Motion {
+    /// The part between two shares of its time, at a constant speed on an arc; its frame is the one before this part.
+    fn part(self, from: f64, to: f64) -> Motion {
+        let share = to - from;
+        // A chord lies half a turn beside the heading at its beginning.
+        let beside = 0.5 * (share - 1.0) * self.turned;
+        Motion {
+            moved: rotated(self.moved * share, beside),
+            turned: self.turned * share,
         }
     }
+}
 
-    /// Moves by `moved`, which is in the robot's frame before the turn.
-    fn advance(&mut self, moved: Point, turned: f64, accuracy: &Accuracy) {
+impl Belief {
+    fn advance(&mut self, Motion { moved, turned }: Motion, accuracy: &Accuracy) {
         let way = rotated(moved, self.pose.yaw);
         self.pose.position += way;
         self.pose.yaw = wrap_angle(self.pose.yaw + turned);
@@ -191,15 +247,35 @@ impl State {
         self.covariance[1][1] += along;
         self.covariance[2][2] += turn;
     }
+}
+
+impl State {
+    fn at(pose: Pose, now: Time, accuracy: Accuracy) -> State {
+        let (p, h) = (accuracy.position.powi(2), accuracy.heading.powi(2));
+        State {
+            belief: Belief {
+                pose,
+                covariance: [[p, 0.0, 0.0], [0.0, p, 0.0], [0.0, 0.0, h]],
+            },
+            twist: Twist::default(),
+            fresh: now,
+            fixed: None,
+            has_odometry: false,
+        }
+    }
 
     fn innovation(&self, pose: &Pose) -> [f64; 3] {
-        let apart = pose.position - self.pose.position;
-        [apart.x, apart.y, wrap_angle(pose.yaw - self.pose.yaw)]
+        let apart = pose.position - self.belief.pose.position;
+        [
+            apart.x,
+            apart.y,
+            wrap_angle(pose.yaw - self.belief.pose.yaw),
+        ]
     }
 
     /// Covariance of a fix around the state, with something for the time that fixes take and motion between them.
     fn expected(&self, accuracy: &Accuracy) -> [[f64; 3]; 3] {
-        let mut sum = self.covariance;
+        let mut sum = self.belief.covariance;
         let slack = 0.1 * self.twist.linear.planar_length();
         sum[0][0] += accuracy.position.powi(2) + slack * slack;
         sum[1][1] += accuracy.position.powi(2) + slack * slack;
@@ -220,22 +296,22 @@ impl State {
 
     fn correct(&mut self, pose: &Pose, accuracy: &Accuracy) {
         if !self.has_odometry {
-            self.pose = *pose;
+            self.belief.pose = *pose;
             return;
         }
         let Some(inverse) = inverse(&self.expected(accuracy)) else {
-            self.pose = *pose;
+            self.belief.pose = *pose;
             return;
         };
-        let gain = product(&self.covariance, &inverse);
+        let gain = product(&self.belief.covariance, &inverse);
         let apart = self.innovation(pose);
         let change: [f64; 3] = std::array::from_fn(|i| (0..3).map(|k| gain[i][k] * apart[k]).sum());
-        self.pose.position.x += change[0];
-        self.pose.position.y += change[1];
-        self.pose.yaw = wrap_angle(self.pose.yaw + change[2]);
+        self.belief.pose.position.x += change[0];
+        self.belief.pose.position.y += change[1];
+        self.belief.pose.yaw = wrap_angle(self.belief.pose.yaw + change[2]);
         let keep: [[f64; 3]; 3] =
             std::array::from_fn(|i| std::array::from_fn(|k| f64::from(i == k) - gain[i][k]));
-        self.covariance = product(&keep, &self.covariance);
+        self.belief.covariance = product(&keep, &self.belief.covariance);
     }
 
     /// Velocity from one fix to the next, smoothed.
@@ -340,6 +416,28 @@ mod tests {
         let fixed = drive(Some(4), 0.005);
         assert!(alone > 0.1, "{alone}");
         assert!(fixed < 0.02, "{fixed}");
+    }
+
+    /// A robot whose odometry comes once a second drives an arc, and is seen by motion capture in between.
+    #[test]
+    fn odometry_is_not_added_to_fixes_that_have_seen_the_motion() {
+        let start = Pose::level(Point::new(1.0, 0.0, 0.0), std::f64::consts::FRAC_PI_2);
+        let mut filter = Localiser::new(Accuracy::default(), Some(start), true, Time::ZERO);
+        filter.measure(at(0), &odometry(0.0, 0.0));
+        let chord = 2.0 * 0.1_f64.sin();
+        let mut worst = 0.0_f64;
+        for tick in 1..=400u64 {
+            let angle = tick as f64 * 0.01;
+            let truth = Point::polar(1.0, angle);
+            let now = at(50 * tick);
+            filter.fix(now, Pose::level(truth, angle + std::f64::consts::FRAC_PI_2));
+            if tick % 20 == 0 {
+                filter.measure(now, &odometry(chord, 0.2));
+                let (estimate, _) = filter.estimate().unwrap();
+                worst = worst.max(estimate.pose.position.planar_distance(truth));
+            }
+        }
+        assert!(worst < 0.005, "{worst} m");
     }
 
     #[test]
