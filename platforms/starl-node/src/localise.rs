@@ -106,7 +106,7 @@ impl Localiser {
             };
             match self.measured {
                 Some((last, belief)) if last < at => {
-                    state.belief = belief;
+                    state.belief.go_back(&belief);
                     let share = |time: Time| time.since(last).seconds() / at.since(last).seconds();
                     let mut done = 0.0;
                     for (time, pose) in self.since.drain(..) {
@@ -229,6 +229,14 @@ impl Motion {
 }
 
 impl Belief {
+    /// Takes over what was believed in the plane. Height and tilt stay: the latest measurement of them counts.
+    fn go_back(&mut self, earlier: &Belief) {
+        self.covariance = earlier.covariance;
+        self.pose.position.x = earlier.pose.position.x;
+        self.pose.position.y = earlier.pose.position.y;
+        self.pose.yaw = earlier.pose.yaw;
+    }
+
     fn advance(&mut self, Motion { moved, turned }: Motion, accuracy: &Accuracy) {
         let way = rotated(moved, self.pose.yaw);
         self.pose.position += way;
@@ -438,6 +446,26 @@ mod tests {
             }
         }
         assert!(worst < 0.005, "{worst} m");
+    }
+
+    #[test]
+    fn odometry_leaves_height_and_tilt_as_they_were_measured_last() {
+        let mut filter = Localiser::new(Accuracy::default(), None, true, Time::ZERO);
+        filter.fix(at(0), Pose::level(Point::ZERO, 0.0));
+        filter.measure(at(10), &odometry(0.0, 0.0));
+        let mut pose = Pose::level(Point::new(0.0, 0.0, 1.5), 0.0);
+        pose.roll = 0.1;
+        filter.fix(at(20), pose);
+        filter.measure(at(30), &odometry(0.0, 0.0));
+        let (estimate, _) = filter.estimate().unwrap();
+        assert_eq!((estimate.pose.position.z, estimate.pose.roll), (1.5, 0.1));
+        let climbed = Reading {
+            height: Some(2.0),
+            ..Reading::default()
+        };
+        filter.measure(at(40), &climbed);
+        filter.measure(at(50), &odometry(0.0, 0.0));
+        assert_eq!(filter.estimate().unwrap().0.pose.position.z, 2.0);
     }
 
     #[test]
