@@ -82,10 +82,12 @@ export class Stage implements Painter {
     this.#drawings.update(scene);
     this.#robots.update(scene);
     this.#renderer.render(this.#graph, this.#aim(view));
-    this.#waiting ??= setTimeout(() => {
-      this.#hasShadows = true;
-      this.again();
-    }, SHADOWS_AFTER);
+    // An empty world may be painted long before the run is there.
+    if (scene.count > 0)
+      this.#waiting ??= setTimeout(() => {
+        this.#hasShadows = true;
+        this.again();
+      }, SHADOWS_AFTER);
   }
 
   dispose(): void {
