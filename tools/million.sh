@@ -20,8 +20,10 @@ block() {
     local first=$1 seeds=$2 name=$3 scenario=$4 options=$5 status=0
     local block=$folder/seeds-$first-$seeds-$name.json
     [ ! -e "$block" ] || return 0
-    # shellcheck disable=SC2086 # options are words
-    "$starl" test "$here/../examples/primitives/$scenario.toml" $options --seeds "$seeds" \
+    # The options are words of a shell, some of them in quotes.
+    eval "words=($options)"
+    # shellcheck disable=SC2154 # words is set above
+    "$starl" test "$here/../examples/primitives/$scenario.toml" "${words[@]}" --seeds "$seeds" \
         --first-seed "$first" --out "$folder" --json </dev/null >"$block.partial" || status=$?
     # 1 is a finding; more is a fault of the command or its input, and 130 someone's wish to stop.
     if [ "$status" -gt 1 ] || grep -q '"interrupted": true' "$block.partial"; then

@@ -49,6 +49,7 @@ impl SimulatedBody {
         SimulatedDevice {
             body: self.clone(),
             last: self.state().pose,
+            measured: None,
         }
     }
 
@@ -79,11 +80,16 @@ impl Moving {
     }
 }
 
+/// A body that stands is measured this often.
+const STANDING: std::time::Duration = std::time::Duration::from_millis(50);
+
 /// The motors and the odometry of a [`SimulatedBody`].
 #[derive(Debug)]
 pub struct SimulatedDevice {
     body: SimulatedBody,
     last: Pose,
+    /// When it measured last.
+    measured: Option<Instant>,
 }
 
 impl Device for SimulatedDevice {
@@ -102,6 +108,12 @@ impl Device for SimulatedDevice {
 
     fn read(&mut self) -> Result<Option<Reading>, DeviceError> {
         let state = self.body.state();
+        let now = Instant::now();
+        let is_recent = |at| now.saturating_duration_since(at) < STANDING;
+        if state.pose == self.last && self.measured.is_some_and(is_recent) {
+            return Ok(None);
+        }
+        self.measured = Some(now);
         let before = std::mem::replace(&mut self.last, state.pose);
         Ok(Some(reading(&before, &state.pose, &state.twist)))
     }

@@ -32,6 +32,9 @@ pub struct ZenohOptions {
     pub listen: Vec<String>,
     /// The endpoints to connect to, e.g. `tcp/192.168.0.1:7447`. Unreachable ones are retried for ever.
     pub connect: Vec<String>,
+    /// Whether each two members have an endpoint of each other in `connect`. Otherwise members tell each other of further
+    /// members (gossip), and all hear of each new connection, which takes the cube of their number.
+    pub is_complete: bool,
     /// Its part in the network.
     pub mode: Mode,
     /// The certificates for links whose endpoints begin with `tls/`.
@@ -188,7 +191,10 @@ pub fn config(options: &ZenohOptions) -> Result<Config, ZenohError> {
     set("connect/timeout_ms", "-1")?;
     set("connect/exit_on_failure", "false")?;
     set("scouting/multicast/enabled", "false")?;
-    set("scouting/gossip/enabled", "true")?;
+    set(
+        "scouting/gossip/enabled",
+        &(!options.is_complete).to_string(),
+    )?;
     set("transport/link/tx/queue/size/data", "16")?;
     // Microseconds that a packet waits for room, before it is dropped.
     set(

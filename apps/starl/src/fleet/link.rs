@@ -111,6 +111,7 @@ fn zenoh(
             Some(router) => vec![router.clone()],
             None => before.map(|other| endpoint(other.address)).collect(),
         },
+        is_complete: network.router.is_none(),
         // An operator is a guest: others need not connect to it.
         mode: match network.router {
             Some(_) => Mode::Client,

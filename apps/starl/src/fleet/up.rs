@@ -176,6 +176,13 @@ fn this_command() -> std::io::Result<Command> {
     Ok(command)
 }
 
+/// One thread for the network of each robot, since they share a machine: Zenoh's own variable and its syntax. Its usual six
+/// threads hand each packet on to each other.
+const ZENOH_THREADS: (&str, &str) = (
+    "ZENOH_RUNTIME",
+    "(rx: (handover: net), acc: (handover: net), tx: (handover: net), app: (handover: net), net: (worker_threads: 1))",
+);
+
 /// The processes of a fleet.
 struct Robots<'a> {
     arguments: &'a FleetUpArguments,
@@ -230,6 +237,9 @@ impl<'a> Robots<'a> {
             .stdin(Stdio::piped());
         if self.arguments.quiet {
             command.arg("--quiet");
+        }
+        if std::env::var_os(ZENOH_THREADS.0).is_none() {
+            command.env(ZENOH_THREADS.0, ZENOH_THREADS.1);
         }
         command.spawn().map_err(|error| cannot(&error))
     }

@@ -2,7 +2,7 @@
 
 use super::beacon::Beacon;
 use serde::{Deserialize, Serialize};
-use starl_core::Time;
+use starl_core::{Duration, Time};
 
 /// The measured quality of a link, from the other robot to this one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,6 +25,12 @@ pub struct Quality {
 const WEIGHT: f64 = 0.05;
 
 impl Quality {
+    /// Whether a beacon that arrives at `now` is the first of its robot, or the first after a restart or a silence so long.
+    pub fn is_back(&self, now: Time, silence: Duration, beacon: &Beacon) -> bool {
+        let is_silent = |heard| now.since(heard) > silence;
+        beacon.number < self.expected || self.heard.is_none_or(is_silent)
+    }
+
     /// Adds a beacon of the other robot that arrived at `now`.
     pub fn take(&mut self, now: Time, beacon: &Beacon) {
         let missed = match self.heard {
@@ -62,7 +68,6 @@ impl Quality {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use starl_core::Duration;
 
     fn at(ms: u64) -> Time {
         Time::ZERO + Duration::from_millis(ms)

@@ -18,7 +18,7 @@ use starl_host::{Clock, Datagram, Node, NodeInput, Snapshot, Workspace};
 use std::mem;
 
 /// How often a robot tells the others where it is.
-const BEACON_PERIOD: Duration = Duration::from_millis(100);
+pub(super) const BEACON_PERIOD: Duration = Duration::from_millis(100);
 
 /// How often the robot's true pose is recorded.
 const POSE_PERIOD: Duration = Duration::from_millis(100);
@@ -58,6 +58,8 @@ pub struct Core<R: Recorder, E: Equipment> {
     /// When distant robots hear the next beacons, and which of them, in turns.
     pub(super) next_far: Time,
     pub(super) turn: u32,
+    /// Where it stands or was last seen to move, and since when.
+    pub(super) stand: (Point, Time),
     pub(super) link_heard: Time,
     pub(super) failure: Option<String>,
     /// Until when the robot, stopped by an operator, still answers.
@@ -115,6 +117,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             recorded: Point::ZERO,
             next_far: now,
             turn: 0,
+            stand: (Point::ZERO, now),
             link_heard: now,
             failure: None,
             leaving: None,

@@ -1,6 +1,6 @@
 //! The robot's end of the link: what it hears from others and tells them.
 
-use super::core::Peer;
+use super::core::{BEACON_PERIOD, Peer};
 use super::{Core, Equipment, Recorder};
 use crate::link::beacon::Beacon;
 use crate::link::channel::{self, Opened};
@@ -20,12 +20,21 @@ const NEAR: usize = 8;
 /// times a second would send and receive 2,000 packets a second.
 const TURNS: u32 = 6;
 
+/// The number of robots, near or far, that hear each round of a robot that stands in a larger fleet, and the most rounds
+/// until all have heard it. Others reckon that a robot of which they hear nothing stands where it was last.
+const STANDING: u32 = 2;
+const MOST_TURNS: u32 = 40;
+
+/// A robot stands when it has been within this distance of one place, metres, for so long.
+const SAME_PLACE: f64 = 0.02;
+const SETTLED: Duration = Duration::from_millis(2000);
+
 /// A round that is late shows that the computer has too much to do. Distant robots miss rounds for this many times the
 /// delay, so that beacons do not displace the messages of programs.
 const EASING: u64 = 10;
 
-/// They miss rounds for at most this time, so that they hear this robot within 7 s.
-const LONGEST_EASING: Duration = Duration::from_millis(1000);
+/// Until all have heard this robot, they miss rounds for at most this time altogether.
+const LONGEST_EASING: Duration = Duration::from_millis(6000);
 
 impl<R: Recorder, E: Equipment> Core<R, E> {
     pub(super) fn receive(&mut self, arrival: &Arrival) {
@@ -92,7 +101,10 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
     }
 
     fn notice_peer(&mut self, from: Member, beacon: &Beacon) {
+        // It has restarted, or the network was cut, so it may not know where this robot stands.
+        let silence = Duration(2 * u64::from(self.turns(false)) * BEACON_PERIOD.0);
         let peer = &mut self.peers[from as usize];
+        let is_back = peer.quality.is_back(self.now, silence, beacon);
         peer.quality.take(self.now, beacon);
         peer.latest = Some((beacon.sent, self.now));
         if let Some(pose) = beacon.pose {
@@ -101,6 +113,9 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             self.surroundings
                 .hear(robot, self.now, pose.position, beacon.velocity);
         }
+        if is_back {
+            self.send_beacon(from);
+        }
     }
 
     /// Sends a round of beacons, which is so late.
@@ -108,18 +123,41 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         for (member, packet) in self.channel.due(self.now) {
             let _ = self.equipment.send(member, &packet);
         }
+        let tells_near = self.has_moved() || self.peers.len() <= NEAR + 1;
+        let turns = self.turns(tells_near);
         let mut turn = None;
         if self.next_far <= self.now {
-            turn = Some(self.turn % TURNS);
+            turn = Some(self.turn);
             self.turn = self.turn.wrapping_add(1);
-            self.next_far =
-                self.now + Duration(late.0.saturating_mul(EASING).min(LONGEST_EASING.0));
+            let easing = late.0.saturating_mul(EASING);
+            self.next_far = self.now + Duration(easing.min(LONGEST_EASING.0 / u64::from(turns)));
         }
         for (rank, peer) in self.nearest().into_iter().enumerate() {
-            if rank < NEAR || turn == Some(peer % TURNS) {
+            let is_near = tells_near && rank < NEAR;
+            if is_near || turn.is_some_and(|turn| turn % turns == peer % turns) {
                 self.send_beacon(peer);
             }
         }
+    }
+
+    /// The number of rounds in which each of the other robots has its turn.
+    fn turns(&self, tells_near: bool) -> u32 {
+        match tells_near {
+            true => TURNS,
+            false => (self.peers.len() as u32 / STANDING).clamp(TURNS, MOST_TURNS),
+        }
+    }
+
+    /// Whether it has moved lately, as far as it knows.
+    fn has_moved(&mut self) -> bool {
+        let Some((estimate, _)) = self.localiser.estimate() else {
+            return false;
+        };
+        let place = estimate.pose.position;
+        if self.stand.0.distance(place) > SAME_PLACE {
+            self.stand = (place, self.now);
+        }
+        self.now.since(self.stand.1) < SETTLED
     }
 
     /// The other robots, the nearest first; those whose place is unknown last.

@@ -53,8 +53,9 @@ const DOUBLINGS: u32 = 3;
 /// A session is replaced by one with another key after this long.
 const RENEWAL: Duration = Duration::from_millis(600_000);
 
-/// A session in which nothing has come from the other member for so long is replaced.
-const SILENCE: Duration = Duration::from_millis(2_000);
+/// A session in which nothing has come from the other member for so long is replaced. A member that restarts begins new
+/// sessions itself, and robots of a large fleet that stand say nothing for up to 10 s.
+const SILENCE: Duration = Duration::from_millis(15_000);
 
 /// The result of opening a packet.
 #[derive(Debug, PartialEq)]
@@ -96,7 +97,7 @@ struct Peer {
     /// The one before it, in which packets may still come.
     previous: Option<u32>,
     /// A session that this end has answered to, and that the other end has not used yet.
-    answered: Option<u32>,
+    answered: Option<Answered>,
     /// An initiation that waits for its response.
     pending: Option<Pending>,
     /// When the last initiation was sent.
@@ -107,9 +108,18 @@ struct Peer {
     is_wanted: bool,
 }
 
+struct Answered {
+    index: u32,
+    /// The initiation, which the other end repeats until it has the answer.
+    initiation: Vec<u8>,
+    answer: Vec<u8>,
+}
+
 struct Pending {
     index: u32,
     handshake: Box<HandshakeState>,
+    /// The initiation, which is sent again until there is a response.
+    packet: Vec<u8>,
 }
 
 struct Session {
@@ -140,6 +150,9 @@ impl Channel {
     /// Replaces the keys. Existing sessions continue until they are renewed.
     pub fn set_keys(&mut self, keys: Vec<Key>) {
         self.keys = keys;
+        for peer in self.peers.values_mut() {
+            peer.pending = None;
+        }
     }
 
     /// How many packets were refused.
@@ -203,20 +216,36 @@ impl Channel {
             let is_good = session.is_some_and(|session| {
                 now.since(session.heard) < SILENCE && now.since(session.begun) < RENEWAL
             });
+            // The other end has begun one, and is about to use it. Only the first attempt waits for that, as anyone can
+            // repeat what the other end has sent.
+            let answered = peer.answered.as_ref();
+            let answered = answered.and_then(|answered| self.sessions.get(&answered.index));
+            let is_coming = peer.attempts == 0
+                && answered.is_some_and(|session| now.since(session.begun) < PATIENCE);
             let patience = Duration(PATIENCE.0 << peer.attempts.saturating_sub(1).min(DOUBLINGS));
             let waits = peer.tried.is_some_and(|at| now.since(at) < patience);
-            if !peer.is_wanted || is_good || waits {
+            if !peer.is_wanted || is_good || is_coming || waits {
                 continue;
             }
             peer.tried = Some(now);
             peer.attempts = peer.attempts.saturating_add(1);
-            let Some(index) = fresh_index(&self.sessions) else {
-                continue;
-            };
-            if let Ok((handshake, packet)) = initiate(&self.fleet, self.me, member, &key, index) {
-                peer.pending = Some(Pending { index, handshake });
-                due.push((member, packet));
+            if peer.pending.is_none() {
+                let index = fresh_index(&self.sessions);
+                peer.pending = index.and_then(|index| {
+                    let initiation = initiate(&self.fleet, self.me, member, &key, index);
+                    let (handshake, packet) = initiation.ok()?;
+                    Some(Pending {
+                        index,
+                        handshake,
+                        packet,
+                    })
+                });
             }
+            due.extend(
+                peer.pending
+                    .iter()
+                    .map(|pending| (member, pending.packet.clone())),
+            );
         }
         due
     }
@@ -225,6 +254,14 @@ impl Channel {
     fn answer(&mut self, now: Time, packet: &[u8]) -> Result<Opened, Refusal> {
         let (from, rest) = number(packet)?;
         let (remote, message) = number(rest)?;
+        let answered = self
+            .peers
+            .get(&from)
+            .and_then(|peer| peer.answered.as_ref());
+        if let Some(answered) = answered.filter(|answered| answered.initiation == packet) {
+            let answer = Some(answered.answer.clone());
+            return Ok(Opened::Handshake { from, answer });
+        }
         let fresh = fresh_index(&self.sessions).ok_or(Refusal::Malformed)?;
         let prologue = prologue(&self.fleet, from, self.me);
         let handshake = self.keys.iter().find_map(|key| {
@@ -243,8 +280,13 @@ impl Channel {
         let peer = self.peers.entry(from).or_default();
         // Only what the other end uses takes the place of a session: an initiation that someone has recorded and
         // sends again changes nothing.
-        if let Some(unused) = peer.answered.replace(fresh) {
-            self.sessions.remove(&unused);
+        let answered = Answered {
+            index: fresh,
+            initiation: packet.to_vec(),
+            answer: answer.clone(),
+        };
+        if let Some(unused) = peer.answered.replace(answered) {
+            self.sessions.remove(&unused.index);
         }
         self.sessions.insert(fresh, session);
         Ok(Opened::Handshake {
@@ -291,7 +333,11 @@ impl Channel {
         session.heard = now;
         let from = session.with;
         let peer = self.peers.entry(from).or_default();
-        if peer.answered == Some(index) {
+        if peer
+            .answered
+            .as_ref()
+            .is_some_and(|answered| answered.index == index)
+        {
             peer.answered = None;
             self.promote(from, index);
         }

@@ -160,6 +160,76 @@ fn a_repeated_initiation_ends_no_session() {
 }
 
 #[test]
+fn an_initiation_that_is_sent_again_gets_the_same_answer() {
+    let at = |ms| Time::ZERO + Duration::from_millis(ms);
+    let (mut a, mut b) = (member(0, KEY), member(1, KEY));
+    a.want(1);
+    let mut answers = Vec::new();
+    for ms in [0, 300] {
+        for (_, packet) in a.due(at(ms)) {
+            answers.push(b.open(at(ms), &packet));
+        }
+    }
+    assert_eq!(answers.len(), 2);
+    assert_eq!(answers[0], answers[1]);
+    let Opened::Handshake {
+        answer: Some(answer),
+        ..
+    } = &answers[0]
+    else {
+        panic!("{answers:?}");
+    };
+    assert_eq!(
+        a.open(at(400), answer),
+        Opened::Handshake {
+            from: 1,
+            answer: None
+        }
+    );
+    // The second answer is late, and changes nothing.
+    assert_eq!(
+        a.open(at(500), answer),
+        Opened::Refused(Refusal::UnknownSession)
+    );
+    let hello = a.seal(1, b"hello").expect("there is a session");
+    assert!(matches!(
+        b.open(at(500), &hello),
+        Opened::Content { from: 0, .. }
+    ));
+}
+
+#[test]
+fn a_member_does_not_begin_a_session_while_another_one_begins_it() {
+    let at = |ms| Time::ZERO + Duration::from_millis(ms);
+    let (mut a, mut b) = (member(0, KEY), member(1, KEY));
+    b.want(0);
+    // The answer is on its way.
+    a.want(1);
+    for (_, packet) in a.due(at(0)) {
+        b.open(at(0), &packet);
+    }
+    assert_eq!(b.due(at(200)), []);
+    assert_eq!(b.due(at(300)).len(), 1, "the answer was lost");
+}
+
+#[test]
+fn a_silent_session_is_used_until_another_one_takes_its_place() {
+    let (mut a, mut b) = pair();
+    let at = |ms| Time::ZERO + Duration::from_millis(ms);
+    assert_eq!(
+        a.due(at(10_000)),
+        [],
+        "members may say nothing for some seconds"
+    );
+    assert_eq!(a.due(at(16_000)).len(), 1);
+    let hello = a.seal(1, b"hello").expect("there is a session");
+    assert!(matches!(
+        b.open(at(16_000), &hello),
+        Opened::Content { from: 0, .. }
+    ));
+}
+
+#[test]
 fn a_key_is_changed_while_the_fleet_runs() {
     let (mut a, mut b) = pair();
     let new = [9; 32];
