@@ -36,6 +36,9 @@ struct Instance {
     /// Those that have not crashed since they last came.
     rememberers: BTreeSet<RobotId>,
     participants: Vec<RobotId>,
+    /// The latest generation that a robot has passed, and the participants by then. Robots that join later arrive at the
+    /// next one, also where another robot passes this one after that.
+    gate: Option<(u64, Vec<RobotId>)>,
 }
 
 /// Where a robot is.
@@ -96,7 +99,15 @@ impl Barrier {
                 let before = place.passed.replace(generation);
                 place.waits = None;
                 place.passed_at = at;
-                for found in instance.check_passing(robot, generation, before, at) {
+                let found = instance.check_passing(robot, generation, before, at);
+                let is_first = instance
+                    .gate
+                    .as_ref()
+                    .is_none_or(|gate| gate.0 < generation);
+                if is_first && !is_disturbed {
+                    instance.gate = Some((generation, participants.clone()));
+                }
+                for found in found {
                     match is_disturbed {
                         true => self.excused.forgive(&found, Excuse::Corruption),
                         false => self.pending.push(found),
@@ -187,7 +198,9 @@ impl Instance {
             let place = self.robots.get(peer);
             place.is_some_and(|place| place.is_unsure || place.come_to >= generation)
         };
-        let all = self.participants.iter().copied();
+        let gate = self.gate.as_ref().filter(|gate| gate.0 >= generation);
+        let must_come = |peer: &RobotId| gate.is_none_or(|(_, by_then)| by_then.contains(peer));
+        let all = self.participants.iter().copied().filter(must_come);
         let absent: Vec<RobotId> = all.filter(|peer| !has_come(peer)).collect();
         if !absent.is_empty() {
             let text = format!(
@@ -208,6 +221,7 @@ impl Instance {
         }
         if self.rememberers.is_empty() {
             self.robots.clear();
+            self.gate = None;
         }
     }
 

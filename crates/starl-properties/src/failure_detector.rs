@@ -28,6 +28,8 @@ pub(super) struct FailureDetector {
     suspected: BTreeMap<(RobotId, Port, RobotId), Heard>,
     /// Crashes that are to be suspected: until when, the crashed robot, and the robot that owes it.
     owed: BTreeSet<(Time, RobotId, Port, RobotId)>,
+    /// The robots that have left the fleet. Their crashes at that moment are owed by no robot.
+    left: BTreeSet<RobotId>,
     excused: Excused,
 }
 
@@ -50,6 +52,7 @@ impl FailureDetector {
             observers: BTreeMap::new(),
             suspected: BTreeMap::new(),
             owed: BTreeSet::new(),
+            left: BTreeSet::new(),
             excused: Excused::default(),
         }
     }
@@ -100,7 +103,7 @@ impl FailureDetector {
 
     /// A robot's condition has changed.
     fn changed(&mut self, at: Time, robot: RobotId, change: Change<'_>) {
-        if change.is_end() {
+        if change.is_end() && !self.left.contains(&robot) {
             let due = at + self.bound;
             let observers = self.observers.iter();
             for (&(port, by), &since) in observers.filter(|((_, by), _)| *by != robot) {
@@ -140,6 +143,7 @@ impl FailureDetector {
 
     /// A robot has left the fleet.
     fn left(&mut self, robot: RobotId) {
+        self.left.insert(robot);
         self.observers.retain(|&(_, by), _| by != robot);
         self.suspected
             .retain(|&(peer, _, by), _| peer != robot && by != robot);

@@ -44,6 +44,8 @@ pub(super) struct BroadcastOrder {
     was_corrupted: bool,
     /// After a corruption nothing is judged until then.
     void_until: Time,
+    /// Whether it is so, until the first report after that.
+    is_void: bool,
     excused: Excused,
 }
 
@@ -118,7 +120,18 @@ impl BroadcastOrder {
             reach: Reach::new(setting),
             was_corrupted: false,
             void_until: Time::ZERO,
+            is_void: false,
             excused: Excused::default(),
+        }
+    }
+
+    /// All robots start again: what a corruption made up is in what they have delivered so far.
+    fn begin_anew(&mut self) {
+        for instance in self.instances.values_mut() {
+            instance.handed.clear();
+            instance.sequences = Sequences::default();
+            let is_causal = instance.causality.is_some();
+            instance.causality = is_causal.then(Causality::default);
         }
     }
 
@@ -126,6 +139,10 @@ impl BroadcastOrder {
         let Report {
             at, robot, port, ..
         } = *report;
+        if self.is_void && at >= self.void_until {
+            self.is_void = false;
+            self.begin_anew();
+        }
         match report.event {
             BroadcastEvent::Broadcast {
                 order: Some(order), ..
@@ -309,12 +326,8 @@ impl Checker for BroadcastOrder {
                     (Some(_), Fault::CorruptState) => {
                         self.was_corrupted = true;
                         self.void_until = record.at + self.bound;
-                        for instance in self.instances.values_mut() {
-                            instance.handed.clear();
-                            instance.sequences = Sequences::default();
-                            let is_causal = instance.causality.is_some();
-                            instance.causality = is_causal.then(Causality::default);
-                        }
+                        self.is_void = true;
+                        self.begin_anew();
                     }
                     _ => {}
                 }

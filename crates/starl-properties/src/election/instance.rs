@@ -3,6 +3,7 @@
 
 use super::{EXCLUSION, ORDER, SOUNDNESS, UNIQUENESS};
 use crate::Violation;
+use starl_core::event::agreement::Algorithm;
 use starl_core::{RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Instance {
     pub participants: Vec<RobotId>,
-    pub has_leases: bool,
+    pub algorithm: Option<Algorithm>,
     /// Robots that have it and are up.
     pub members: BTreeMap<RobotId, Member>,
     /// Those that lead, with their epochs.
@@ -100,6 +101,11 @@ impl Member {
 }
 
 impl Instance {
+    /// Whether it promises that no two robots lead at a time.
+    pub fn has_leases(&self) -> bool {
+        self.algorithm == Some(Algorithm::Leases)
+    }
+
     /// More than half of the participants.
     pub fn majority(&self) -> usize {
         self.participants.len() / 2 + 1
@@ -177,7 +183,7 @@ impl Instance {
             }
             self.highest = self.highest.max(Some(epoch)).filter(|_| !is_disturbed);
         }
-        if self.has_leases
+        if self.has_leases()
             && let Some(&other) = self.leading.keys().next()
         {
             let text = format!("robots {other} and {robot} lead at the same time");

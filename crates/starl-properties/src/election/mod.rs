@@ -83,7 +83,7 @@ impl Election {
             } => {
                 *member = Member::new(at);
                 instance.participants.clone_from(participants);
-                instance.has_leases = algorithm == Algorithm::Leases;
+                instance.algorithm = Some(algorithm);
             }
             ElectionEvent::Elect => {
                 member.called.get_or_insert(at);
@@ -154,6 +154,15 @@ impl Election {
 impl Checker for Election {
     fn properties(&self) -> &'static [&'static str] {
         &[UNIQUENESS, ORDER, EXCLUSION, SOUNDNESS, AGREEMENT, PROGRESS]
+    }
+
+    fn has_subject(&self, property: &str) -> bool {
+        let mut instances = self.instances.values();
+        instances.any(|instance| match property {
+            UNIQUENESS | EXCLUSION => instance.has_leases(),
+            ORDER => instance.algorithm != Some(Algorithm::Bully),
+            _ => true,
+        })
     }
 
     fn heeds(&self) -> Kinds {

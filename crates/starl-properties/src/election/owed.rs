@@ -129,7 +129,7 @@ impl Election {
         let is_able = !self.is_disturbed(now) && self.are_linked(robot, robot, now);
         let owes = stands
             && is_able
-            && (!instance.has_leases || self.has_quorum(instance, since, is_ready));
+            && (!instance.has_leases() || self.has_quorum(instance, since, is_ready));
         if stands && !owes {
             let excuse = match is_able {
                 true => Excuse::NoMajority,

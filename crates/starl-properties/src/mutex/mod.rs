@@ -44,6 +44,8 @@ pub(super) struct Mutex {
     doubtful_until: Time,
     /// When a state was overwritten last; zero if none was.
     corrupted_at: Time,
+    /// Whether a robot has held something with a number.
+    has_numbers: bool,
     /// Whether a crash leaves robots what they have stored.
     keeps_storage: bool,
     pending: Pending,
@@ -65,6 +67,7 @@ impl Mutex {
             locks: BTreeMap::new(),
             doubtful_until: Time::ZERO,
             corrupted_at: Time::ZERO,
+            has_numbers: false,
             keeps_storage: setting.keeps_storage,
             pending: Pending::new(setting),
             next_look: Time::ZERO,
@@ -96,6 +99,7 @@ impl Mutex {
                 fencing,
                 drift,
             } => {
+                self.has_numbers |= fencing.is_some();
                 let entry = Entry {
                     number: *fencing,
                     is_exclusive: drift.is_none_or(|drift| self.drift <= drift),
@@ -159,6 +163,10 @@ impl Mutex {
 impl Checker for Mutex {
     fn properties(&self) -> &'static [&'static str] {
         &[SAFETY, FENCING, NON_INTERFERENCE, PROGRESS]
+    }
+
+    fn has_subject(&self, property: &str) -> bool {
+        property != FENCING || self.has_numbers
     }
 
     fn heeds(&self) -> Kinds {

@@ -3,13 +3,13 @@
 use crate::support::{Story, seconds};
 use starl_core::{RobotId, Value};
 
-fn participants() -> (&'static str, Value) {
-    let all: Vec<RobotId> = (0..3).map(RobotId).collect();
+fn participants(robots: u32) -> (&'static str, Value) {
+    let all: Vec<RobotId> = (0..robots).map(RobotId).collect();
     ("participants", all.into())
 }
 
 fn arrives(story: &mut Story, at: u64, robot: u32, generation: Option<u32>) {
-    story.report(at, robot, ("barrier", "arrive"), [participants()]);
+    story.report(at, robot, ("barrier", "arrive"), [participants(3)]);
     if let Some(generation) = generation {
         waits(story, at, robot, generation);
     }
@@ -21,8 +21,13 @@ fn waits(story: &mut Story, at: u64, robot: u32, generation: u32) {
 }
 
 fn passes(story: &mut Story, at: u64, robot: u32, generation: u32) {
-    let generation = ("generation", generation.into());
-    story.report(at, robot, ("barrier", "pass"), [generation, participants()]);
+    passes_with(story, at, robot, generation, 3);
+}
+
+/// Passes with so many participants.
+fn passes_with(story: &mut Story, at: u64, robot: u32, generation: u32, robots: u32) {
+    let fields = [("generation", generation.into()), participants(robots)];
+    story.report(at, robot, ("barrier", "pass"), fields);
 }
 
 /// Three robots and a bound of 5 s; they cross the first generation.
@@ -66,6 +71,21 @@ fn passing_too_early_is_found() {
     arrives(&mut story, 1000, 1, Some(2));
     passes(&mut story, 1500, 0, 2);
     assert_eq!(properties(&story), ["barrier.safety"]);
+}
+
+#[test]
+fn a_robot_that_joins_arrives_at_the_next_generation() {
+    let mut story = robots();
+    (0..3).for_each(|robot| arrives(&mut story, 1000, robot, Some(2)));
+    let mut early = story.clone();
+    passes(&mut story, 1500, 1, 2);
+    passes(&mut story, 1500, 2, 2);
+    // Robot 3 has joined, and robot 0 hears that others have passed.
+    passes_with(&mut story, 2500, 0, 2, 4);
+    assert_eq!(properties(&story), [""; 0]);
+    // It joins before any robot passes.
+    passes_with(&mut early, 2500, 0, 2, 4);
+    assert_eq!(properties(&early), ["barrier.safety"]);
 }
 
 #[test]

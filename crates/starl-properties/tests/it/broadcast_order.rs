@@ -423,6 +423,26 @@ fn a_corruption_excuses_for_a_while() {
 }
 
 #[test]
+fn a_corruption_counts_no_more_after_a_bound() {
+    let mut story = answer();
+    story.fault(1250, Some(2), "corrupt state");
+    passes(&mut story, 1300, 2, (1, 7_859_365));
+    sends(&mut story, 9000, 1, 2, "causal");
+    for robot in [0, 2] {
+        handed(&mut story, 9100, robot, (1, 2));
+    }
+    assert_none(&story.verdict(19_000));
+}
+
+#[test]
+fn only_the_properties_of_its_order_apply_to_a_broadcast() {
+    let applying = answer().applying(9000);
+    let has = |property: &str| applying.iter().any(|applying| applying == property);
+    assert!(has("broadcast.causal_order"), "{applying:?}");
+    assert!(!has("broadcast.total_order"), "{applying:?}");
+}
+
+#[test]
 fn unordered_messages_are_delivered_once_in_any_order() {
     let mut story = story();
     for number in 1..=3 {

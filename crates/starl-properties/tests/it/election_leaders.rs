@@ -210,3 +210,32 @@ fn an_outcome_after_none_may_be_lesser() {
     believes(&mut story, 1010, 0, 2, (3, 50));
     assert_none(&story.verdict(10_000));
 }
+
+#[test]
+fn only_leases_promise_one_leader_at_a_time() {
+    for (algorithm, promised) in [
+        (
+            "leases",
+            vec![
+                "election.uniqueness",
+                "election.order",
+                "election.exclusion",
+            ],
+        ),
+        ("ballots", vec!["election.order"]),
+        ("bully", vec![]),
+    ] {
+        let mut story = Story::of_ground_robots(2);
+        let fields = [
+            ("algorithm", algorithm.into()),
+            ("participants", ids(&[0, 1])),
+        ];
+        story.report(0, 0, ("election", "start"), fields);
+        let mut applying = story.applying(1000);
+        applying.retain(|property| {
+            let rest = ["soundness", "agreement", "progress"];
+            property.starts_with("election") && !rest.iter().any(|name| property.ends_with(name))
+        });
+        assert_eq!(applying, promised, "{algorithm}");
+    }
+}

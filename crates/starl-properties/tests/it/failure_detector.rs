@@ -1,8 +1,8 @@
 //! The properties of failure detectors by stories: what keeps them passes, what breaks one is found and named.
 
 use crate::support::{Story, seconds};
-use starl_core::RobotId;
 use starl_core::event::Event;
+use starl_core::{Intervention, RobotId};
 
 /// Three robots and a bound of 7 s; robots 0 and 1 have suspected robot 2 once, and trust it again.
 fn robots() -> Story {
@@ -78,6 +78,18 @@ fn a_robot_that_is_suspected_already_need_not_be_suspected_again() {
     suspects(&mut story, 9_000, 0, 2, "silence");
     suspects(&mut story, 9_000, 1, 2, "silence");
     story.fault(10_000, Some(2), "crash");
+    assert_eq!(properties(&story), [""; 0]);
+}
+
+#[test]
+fn a_robot_that_leaves_need_not_be_suspected() {
+    let mut story = robots();
+    story.fault(10_000, Some(2), "crash");
+    suspects(&mut story, 12_000, 0, 2, "silence");
+    suspects(&mut story, 12_000, 1, 2, "silence");
+    let leave = Intervention::Leave(vec![RobotId(2)]);
+    story.record(30_000, None, Event::Intervention(Box::new(leave)));
+    story.fault(30_000, Some(2), "crash");
     assert_eq!(properties(&story), [""; 0]);
 }
 

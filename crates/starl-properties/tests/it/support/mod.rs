@@ -313,13 +313,26 @@ impl Story {
         seen_live
     }
 
-    /// The excuses of a property until then, by reason.
-    pub fn excused(&self, end: u64, property: &str) -> Vec<(Excuse, u64)> {
+    fn watched(&self, end: u64) -> Watch {
         let mut records = self.records.clone();
         records.sort_by_key(|record| (record.at, record.robot));
         let mut watch = Watch::new(checkers(&self.setting));
         watch.observe(&records, ms(end));
-        let excused = watch.excused().into_iter();
+        watch
+    }
+
+    /// The properties that apply until then.
+    pub fn applying(&self, end: u64) -> Vec<String> {
+        let verdicts = self.watched(end).verdicts().into_iter();
+        let applying = verdicts.filter(|verdict| verdict.used);
+        applying
+            .map(|verdict| verdict.property.to_string())
+            .collect()
+    }
+
+    /// The excuses of a property until then, by reason.
+    pub fn excused(&self, end: u64, property: &str) -> Vec<(Excuse, u64)> {
+        let excused = self.watched(end).excused().into_iter();
         excused
             .filter(|(of, ..)| of == property)
             .map(|(_, excuse, count)| (excuse, count))
