@@ -10,7 +10,7 @@ use serde::Serialize;
 use starl_core::{Duration, Time};
 use starl_sim::profile::Profile;
 use starl_sim::read::{Loader, Request, Source};
-use starl_sim::shrink::{Limits, shrink};
+use starl_sim::shrink::{self, Limits, shrink};
 use starl_sim::{Cause, Finding, History, Run, Scenario, Trial, write};
 
 /// A search for the smallest scenario that fails as a run did. It can be made in pieces: the results of trials are
@@ -53,7 +53,7 @@ pub struct Smaller {
 pub struct Size {
     /// Robots at the start.
     pub robots: usize,
-    /// Faults that are scheduled.
+    /// Faults of one robot or of the network each, drawn ones included.
     pub faults: usize,
     /// When the run ends at the latest.
     pub duration: Duration,
@@ -64,7 +64,7 @@ impl Size {
     pub fn of(scenario: &Scenario) -> Size {
         Size {
             robots: scenario.fleet.len(),
-            faults: scenario.faults.schedule.len(),
+            faults: shrink::faults(scenario),
             duration: scenario.duration,
         }
     }
@@ -75,7 +75,7 @@ impl Size {
 pub struct Extent {
     /// Robots at the start.
     pub robots: usize,
-    /// Faults that are scheduled.
+    /// Faults of one robot or of the network each, drawn ones included.
     pub faults: usize,
     /// When the run ends at the latest.
     pub duration_seconds: f64,

@@ -65,9 +65,7 @@ pub fn shrink(
     shorter: bool,
     fails: &mut dyn FnMut(&Scenario) -> Option<Time>,
 ) -> Option<Shrunk> {
-    let mut best = scenario.clone();
-    profile::list_faults(&mut best);
-    faults::one_by_one(&mut best);
+    let best = listed(scenario);
     let failed_at = fails(&best)?;
     let mut search = Search {
         best,
@@ -93,6 +91,19 @@ pub fn shrink(
         trials: search.trials,
         is_minimal,
     })
+}
+
+/// The scenario with each fault, drawn ones included, as one of one robot or of the network. The run stays the same.
+fn listed(scenario: &Scenario) -> Scenario {
+    let mut listed = scenario.clone();
+    profile::list_faults(&mut listed);
+    faults::one_by_one(&mut listed);
+    listed
+}
+
+/// The number of faults in a scenario, of one robot or of the network each, drawn ones included.
+pub fn faults(scenario: &Scenario) -> usize {
+    listed(scenario).faults.schedule.len()
 }
 
 /// The next longer round duration: tenths of a second, and from ten seconds on whole seconds.
