@@ -7,7 +7,7 @@
 use starl_core::event::{
     BarrierEvent, ElectionEvent, MutexEvent, PrimitiveEvent, RegistrationEvent,
 };
-use starl_explore::{Bounds, Clocks};
+use starl_explore::{Bounds, Clocks, Report};
 use std::collections::BTreeSet;
 
 /// The requests of robots to primitives, and the note if none of them is granted in any behaviour.
@@ -54,6 +54,14 @@ impl Request {
             Request::Passage => "no robot ever passes the barrier",
         }
     }
+}
+
+/// The note if no end of a behaviour is judged.
+pub fn unjudged(bounds: &Bounds, report: &Report) -> Option<String> {
+    let is_unjudged = report.terminal > 0 && report.held == report.terminal;
+    let note = "in all ends of behaviours a robot waits for a timer beyond --timers, so whether robots finish is not \
+                judged: allow more timers, or let clocks tick, e.g. --tick 981ms --time 4s --delay 1";
+    (is_unjudged && bounds.clocks == Clocks::Still).then(|| note.to_string())
 }
 
 /// The notes, from the events of primitives in all visited behaviours.

@@ -84,6 +84,9 @@ fn explore(
     if !matches!(end, Some(End::Violated(_))) {
         let is_complete = end == Some(End::Complete);
         account.hints = hints::hints(&recording.bounds, search.told(), is_complete);
+        account
+            .hints
+            .extend(hints::unjudged(&recording.bounds, &search.report()));
     }
     account.seconds = begun.elapsed().as_secs_f64();
     if let Some(End::Violated(found)) = &end {
