@@ -109,6 +109,9 @@ fn profiles(names: &[String]) -> Result<Vec<Profile>, Failure> {
 }
 
 fn cannot_create(folder: &std::path::Path, error: &std::io::Error) -> Failure {
+    if error.kind() == std::io::ErrorKind::AlreadyExists {
+        return Failure::file(folder, "is a file; name a folder for --out".to_string());
+    }
     let reason = starl_catalog::disk::reason(error);
     Failure::file(
         folder,
