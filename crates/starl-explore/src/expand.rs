@@ -49,7 +49,7 @@ impl Search {
         self.ticks(&mut site, &ticked);
         if !site.moves && self.end.is_none() {
             let stuck = (!site.held).then(|| self.stuck(&site)).flatten();
-            self.is_terminal(number, site.held, stuck);
+            self.is_terminal(number, stuck);
         }
     }
 

@@ -40,7 +40,6 @@ pub struct Search {
     depth: u32,
     transitions: u64,
     terminal: u64,
-    held: u64,
     pub(crate) end: Option<End>,
     /// The row at hand.
     pub(crate) row: Vec<u32>,
@@ -83,8 +82,6 @@ pub struct Report {
     pub depth: u32,
     /// States from which nothing leads on.
     pub terminal: u64,
-    /// Those of them from which something leads on beyond the bounds, so that no robot counts as stuck.
-    pub held: u64,
     /// States of single robots.
     pub robot_states: usize,
     /// States of the checkers.
@@ -136,7 +133,6 @@ impl Search {
             depth: 0,
             transitions: 0,
             terminal: 0,
-            held: 0,
             end: None,
             row: Vec::new(),
         };
@@ -204,7 +200,6 @@ impl Search {
                 false => self.depth,
             },
             terminal: self.terminal,
-            held: self.held,
             robot_states: self.robots.len(),
             checker_states: self.watches.len(),
             motions: self.robots.motions,
@@ -314,9 +309,8 @@ impl Search {
     }
 
     /// Nothing leads on from a state.
-    pub(crate) fn is_terminal(&mut self, state: u32, held: bool, stuck: Option<Violation>) {
+    pub(crate) fn is_terminal(&mut self, state: u32, stuck: Option<Violation>) {
         self.terminal += 1;
-        self.held += u64::from(held);
         if let Some(violation) = stuck {
             self.blame(state, None, violation);
         }

@@ -7,7 +7,7 @@
 use starl_core::event::{
     BarrierEvent, ElectionEvent, MutexEvent, PrimitiveEvent, RegistrationEvent,
 };
-use starl_explore::{Bounds, Clocks, Report};
+use starl_explore::{Bounds, Clocks};
 use std::collections::BTreeSet;
 
 /// The requests of robots to primitives, and the note if none of them is granted in any behaviour.
@@ -56,13 +56,9 @@ impl Request {
     }
 }
 
-/// The note if no end of a behaviour is judged.
-pub fn unjudged(bounds: &Bounds, report: &Report) -> Option<String> {
-    let is_unjudged = report.terminal > 0 && report.held == report.terminal;
-    let note = "in all ends of behaviours a robot waits for a timer beyond --timers, so whether robots finish is not \
-                judged: allow more timers, or let clocks tick, e.g. --tick 981ms --time 4s --delay 1";
-    (is_unjudged && bounds.clocks == Clocks::Still).then(|| note.to_string())
-}
+/// The note if whether robots finish is not judged.
+pub const UNJUDGED: &str = "actions with `every` and `for` wait while clocks stand still, so whether robots finish is \
+                            not judged: let clocks tick, e.g. --tick 1s --time 4s --delay 1";
 
 /// The notes, from the events of primitives in all visited behaviours.
 pub fn hints<'a>(

@@ -23,6 +23,7 @@ use record::Recording;
 use starl_catalog::Application;
 use starl_catalog::programs::Registry;
 use starl_explore::{End, Search, Setup};
+use starl_sim::scenario::Goal;
 use std::fs::File;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
@@ -84,9 +85,10 @@ fn explore(
     if !matches!(end, Some(End::Violated(_))) {
         let is_complete = end == Some(End::Complete);
         account.hints = hints::hints(&recording.bounds, search.told(), is_complete);
-        account
-            .hints
-            .extend(hints::unjudged(&recording.bounds, &search.report()));
+        let is_goal = application.scenario().goal == Goal::AllFinished;
+        if is_goal && !setup.model.all_finish {
+            account.hints.push(hints::UNJUDGED.to_string());
+        }
     }
     account.seconds = begun.elapsed().as_secs_f64();
     if let Some(End::Violated(found)) = &end {
