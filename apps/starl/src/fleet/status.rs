@@ -9,6 +9,7 @@ use crate::{console, json};
 use serde::Serialize;
 use starl_catalog::programs::Registry;
 use starl_node::link::frame::Status;
+use starl_node::robot::longest_silence;
 use std::time::Duration;
 
 /// A robot that does not answer within this time is missing.
@@ -119,10 +120,11 @@ impl Line {
             Some(age) if age < 1e6 => format!("{position} ({age:.1} s old)"),
             _ => position,
         };
+        let silence = longest_silence(self.links.len() + 1).seconds();
         let heard = self
             .links
             .iter()
-            .filter(|link| link.heard_ago.is_some_and(|ago| ago < 1.0));
+            .filter(|link| link.heard_ago.is_some_and(|ago| ago < silence));
         let worst = |value: fn(&LinkLine) -> Option<f64>| {
             let values = self.links.iter().filter_map(value);
             values.fold(None, |worst: Option<f64>, value| {

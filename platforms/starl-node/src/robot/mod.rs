@@ -11,6 +11,7 @@ mod watch;
 
 pub use self::core::Core;
 pub use equipment::Equipment;
+pub use network::longest_silence;
 
 use crate::link::{Arrival, Channel, Transport};
 use crate::localise::Accuracy;

@@ -36,6 +36,14 @@ const EASING: u64 = 10;
 /// Until all have heard this robot, they miss rounds for at most this time altogether.
 const LONGEST_EASING: Duration = Duration::from_millis(6000);
 
+/// A robot of so large a fleet hears each other one at least this often, unless beacons are lost.
+pub fn longest_silence(robots: usize) -> Duration {
+    match robots > NEAR + 1 {
+        true => LONGEST_EASING + Duration(BEACON_PERIOD.0 * u64::from(MOST_TURNS)),
+        false => Duration::from_millis(1000),
+    }
+}
+
 impl<R: Recorder, E: Equipment> Core<R, E> {
     pub(super) fn receive(&mut self, arrival: &Arrival) {
         match self.channel.open(self.now, &arrival.packet) {
