@@ -210,6 +210,7 @@ impl Channel {
         let Some(key) = self.keys.first().copied() else {
             return Vec::new();
         };
+        self.forget_guests(now);
         let mut due = Vec::new();
         for (&member, peer) in &mut self.peers {
             let session = peer.current.and_then(|index| self.sessions.get(&index));
@@ -248,6 +249,25 @@ impl Channel {
             );
         }
         due
+    }
+
+    /// Forgets members that have begun a session of their own accord, as operators do, and are silent for long.
+    fn forget_guests(&mut self, now: Time) {
+        let sessions = &self.sessions;
+        let is_heard = |index: u32| {
+            let session = sessions.get(&index);
+            session.is_some_and(|session| now.since(session.heard) < RENEWAL)
+        };
+        self.peers.retain(|_, peer| {
+            let answered = peer.answered.as_ref().map(|answered| answered.index);
+            let mut indices = [peer.current, peer.previous, answered]
+                .into_iter()
+                .flatten();
+            peer.is_wanted || indices.any(is_heard)
+        });
+        let peers = &self.peers;
+        self.sessions
+            .retain(|_, session| peers.contains_key(&session.with));
     }
 
     /// Answers to an initiation.

@@ -230,6 +230,23 @@ fn a_silent_session_is_used_until_another_one_takes_its_place() {
 }
 
 #[test]
+fn operators_that_have_gone_are_forgotten() {
+    let at = |ms| Time::ZERO + Duration::from_millis(ms);
+    let mut robot = member(0, KEY);
+    robot.want(1);
+    for guest in 0..100u32 {
+        let mut operator = member(OPERATORS + guest, KEY);
+        let now = at(60_000 * u64::from(guest));
+        assert_eq!(connect(&mut operator, &mut robot, now), []);
+        let hello = operator.seal(0, b"hello").expect("there is a session");
+        assert!(matches!(robot.open(now, &hello), Opened::Content { .. }));
+        robot.due(now);
+    }
+    // Those of the last ten minutes, and the other robot.
+    assert_eq!((robot.peers.len(), robot.sessions.len()), (11, 10));
+}
+
+#[test]
 fn a_key_is_changed_while_the_fleet_runs() {
     let (mut a, mut b) = pair();
     let new = [9; 32];
