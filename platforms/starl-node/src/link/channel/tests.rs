@@ -230,6 +230,21 @@ fn a_silent_session_is_used_until_another_one_takes_its_place() {
 }
 
 #[test]
+fn an_operator_begins_a_session_with_a_robot_that_has_restarted() {
+    let at = |ms| Time::ZERO + Duration::from_millis(ms);
+    let (mut operator, mut robot) = (member(OPERATORS, KEY), member(0, KEY));
+    assert_eq!(connect(&mut operator, &mut robot, at(0)), []);
+    // The robot does not know the operator any more.
+    let mut robot = member(0, KEY);
+    assert_eq!(connect(&mut operator, &mut robot, at(2100)), []);
+    let hello = operator.seal(0, b"hello").expect("there is a session");
+    assert!(matches!(
+        robot.open(at(2100), &hello),
+        Opened::Content { .. }
+    ));
+}
+
+#[test]
 fn operators_that_have_gone_are_forgotten() {
     let at = |ms| Time::ZERO + Duration::from_millis(ms);
     let mut robot = member(0, KEY);
