@@ -49,7 +49,7 @@ builtins! {
     Heading = "heading: Float" Query "The estimated heading, radians from the x axis."
     Velocity = "velocity: Point" Query "The estimated velocity, metres per second."
     Now = "now: Time" Query "The time on this robot's clock."
-    Peers = "peers: Set[RobotId]" Query "All known robots of the fleet, including this one."
+    Peers = "peers: Set[RobotId]" Query "All known robots of the fleet, including this one. Robots that join are added; robots that leave or crash stay."
     RobotName = "robot_name(robot: RobotId) -> String" Query "The text `robot` and the robot's number, such as `robot0`; not its name in the scenario."
     Bumped = "bumped: Side?" Query "The side of the bumper that is pressed; none if it is not pressed."
     Ranges = "ranges: List[Float]" Query "The readings of the proximity sensor, metres: the first straight ahead, the others evenly spaced from there to the left, all around."
@@ -103,7 +103,7 @@ builtins! {
     Polygon = "polygon(corners: List[Point]) -> Area" Pure "The convex polygon with these corners."
 
     // Chance. Each call moves on the robot's stream of random numbers.
-    Random = "random(low: Float, high: Float) -> Float" Effect "A random number from `low` to below `high`."
+    Random = "random(low: Float, high: Float) -> Float" Effect "A random number from `low` to below `high`; `low` if `high` is not greater."
     RandomInt = "random_int(low: Int, high: Int) -> Int" Effect "A random number from `low` to below `high`."
     Choose = "choose(list: List[T]) -> T?" Effect "A random element; none for an empty list."
 
