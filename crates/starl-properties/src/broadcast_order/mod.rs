@@ -42,10 +42,8 @@ pub(super) struct BroadcastOrder {
     reach: Reach,
     /// Whether some state was corrupted.
     was_corrupted: bool,
-    /// After a corruption nothing is judged until then.
-    void_until: Time,
-    /// Whether it is so, until the first report after that.
-    is_void: bool,
+    /// After a corruption nothing is judged until then; none from the first report after that on.
+    void_until: Option<Time>,
     excused: Excused,
 }
 
@@ -119,8 +117,7 @@ impl BroadcastOrder {
             agreement: Agreement::new(setting.bodies.len(), bound),
             reach: Reach::new(setting),
             was_corrupted: false,
-            void_until: Time::ZERO,
-            is_void: false,
+            void_until: None,
             excused: Excused::default(),
         }
     }
@@ -139,8 +136,7 @@ impl BroadcastOrder {
         let Report {
             at, robot, port, ..
         } = *report;
-        if self.is_void && at >= self.void_until {
-            self.is_void = false;
+        if self.void_until.take_if(|until| at >= *until).is_some() {
             self.begin_anew();
         }
         match report.event {
@@ -157,7 +153,7 @@ impl BroadcastOrder {
             BroadcastEvent::Join { .. } => return self.agreement.joined(port, robot, at),
             _ => {}
         }
-        let is_judged = at >= self.void_until;
+        let is_judged = self.void_until.is_none();
         let mut finding = Finding {
             report,
             violations,
@@ -325,8 +321,7 @@ impl Checker for BroadcastOrder {
                     }
                     (Some(_), Fault::CorruptState) => {
                         self.was_corrupted = true;
-                        self.void_until = record.at + self.bound;
-                        self.is_void = true;
+                        self.void_until = Some(record.at + self.bound);
                         self.begin_anew();
                     }
                     _ => {}
