@@ -207,11 +207,13 @@ fn follow(
     let timeout = Some(Duration::from_secs(5));
     stream.set_read_timeout(timeout).expect("it can be set");
     let (mut bytes, mut part) = (Vec::new(), [0; 65_536]);
+    let mut records: Vec<starl_core::Record> = Vec::new();
     let begun = Instant::now();
     loop {
-        let length = stream
-            .read(&mut part)
-            .expect("robots tell something all the time");
+        let length = stream.read(&mut part).unwrap_or_else(|error| {
+            let last = &records[records.len().saturating_sub(40)..];
+            panic!("the stream pauses: {error}, after {last:#?}")
+        });
         bytes.extend_from_slice(&part[..length]);
         let head = bytes.windows(4).position(|four| four == b"\r\n\r\n");
         let trace = head.map_or(&[][..], |head| &bytes[head + 4..]);
@@ -219,8 +221,7 @@ fn follow(
         let Ok(reader) = starl_trace::Reader::new(trace) else {
             continue;
         };
-        let records = reader.map_while(Result::ok);
-        let records: Vec<starl_core::Record> = records.collect();
+        records = reader.map_while(Result::ok).collect();
         if is_enough(&records) {
             return records;
         }

@@ -188,7 +188,9 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
     /// Stops the motors permanently; gives the recorder back.
     pub fn end(mut self, now: Time) -> R {
         self.equipment.end();
-        self.recorder.advance(self.now.max(now));
+        self.now = self.now.max(now);
+        self.tell_operators_the_rest();
+        self.recorder.advance(self.now);
         self.recorder.recorder
     }
 

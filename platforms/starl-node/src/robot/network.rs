@@ -4,7 +4,7 @@ use super::core::{BEACON_PERIOD, Peer};
 use super::{Core, Equipment, Recorder};
 use crate::link::beacon::Beacon;
 use crate::link::channel::{self, Opened};
-use crate::link::frame::{Frame, Status};
+use crate::link::frame::{Frame, Seen, Status};
 use crate::link::{Arrival, Member, OPERATORS};
 use starl_core::event::DropReason;
 use starl_core::{Destination, Duration, Event, Message, RobotId};
@@ -206,7 +206,17 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
 
     /// Tells the operators that watch what has happened.
     pub(super) fn tell_operators(&mut self) {
-        let (operators, told) = self.recorder.due(self.now, self.node.program());
+        let due = self.recorder.due(self.now, self.node.program());
+        self.tell(due);
+    }
+
+    /// Tells the operators that watch everything that they have not heard, because the robot ends.
+    pub(super) fn tell_operators_the_rest(&mut self) {
+        let rest = self.recorder.rest(self.now, self.node.program());
+        self.tell(rest);
+    }
+
+    fn tell(&mut self, (operators, told): (Vec<Member>, Vec<Seen>)) {
         for seen in told {
             let frame = Frame::Seen(Box::new(seen));
             for &operator in &operators {

@@ -54,8 +54,17 @@ impl<R: Recorder> Watched<R> {
 
     /// The observers to notify now, with the frames for them.
     pub fn due(&mut self, now: Time, program: &dyn Program) -> (Vec<Member>, Vec<Seen>) {
+        match now.since(self.told) < PERIOD {
+            true => (Vec::new(), Vec::new()),
+            false => self.rest(now, program),
+        }
+    }
+
+    /// The observers of now, with the frames for them, although a report has just been sent: what a robot that ends
+    /// has still to say.
+    pub fn rest(&mut self, now: Time, program: &dyn Program) -> (Vec<Member>, Vec<Seen>) {
         self.watchers.retain(|_, until| *until > now);
-        if self.watchers.is_empty() || now.since(self.told) < PERIOD {
+        if self.watchers.is_empty() {
             return (Vec::new(), Vec::new());
         }
         self.told = now;

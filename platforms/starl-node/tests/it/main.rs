@@ -3,5 +3,6 @@
 mod beacons;
 mod conforms;
 mod hidden_obstacles;
+mod last_events;
 mod poses_on_record;
 mod support;
