@@ -103,9 +103,8 @@ impl Zenoh {
         deliver: impl Fn(Arrival) -> bool + Send + Sync + 'static,
     ) -> Result<Zenoh, ZenohError> {
         let session = session(options)?;
-        let own = key(fleet, me);
         session
-            .declare_subscriber(own)
+            .declare_subscriber(format!("{}{me}", prefix(fleet)))
             .callback(move |sample| {
                 deliver(Arrival {
                     at: Instant::now(),
@@ -116,7 +115,7 @@ impl Zenoh {
             .background()
             .wait()?;
         let (packets, queue) = mpsc::sync_channel::<(Member, Vec<u8>)>(QUEUE);
-        let (sender, fleet) = (session.clone(), fleet.to_string());
+        let (sender, prefix) = (session.clone(), prefix(fleet));
         // A congested link holds up this thread alone.
         thread::Builder::new()
             .name("zenoh".to_string())
@@ -124,9 +123,8 @@ impl Zenoh {
                 for (to, packet) in queue {
                     // Programs tolerate unreachable members.
                     let _ = sender
-                        .put(key(&fleet, to), packet)
+                        .put(format!("{prefix}{to}"), packet)
                         .congestion_control(CongestionControl::Drop)
-                        .express(true)
                         .wait();
                 }
             })
@@ -158,8 +156,8 @@ impl Transport for Zenoh {
     fn learn(&mut self, _: Member, _: Origin) {}
 }
 
-/// The key under which a member is reached. Names may hold what keys may not.
-fn key(fleet: &str, member: Member) -> String {
+/// What the keys under which the members of a fleet are reached begin with. Names may hold what keys may not.
+fn prefix(fleet: &str) -> String {
     let name: String = fleet
         .bytes()
         .map(|byte| match byte.is_ascii_alphanumeric() {
@@ -167,7 +165,7 @@ fn key(fleet: &str, member: Member) -> String {
             false => format!("-{byte:02x}"),
         })
         .collect();
-    format!("starl/{name}/{member}")
+    format!("starl/{name}/")
 }
 
 /// The configuration of a session.

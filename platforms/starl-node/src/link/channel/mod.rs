@@ -50,10 +50,14 @@ const PATIENCE: Duration = Duration::from_millis(250);
 /// How often the wait is doubled at most.
 const DOUBLINGS: u32 = 3;
 
+/// How many sessions before the current one are kept: two, as both ends may begin one at the same time, and a third
+/// replaces both while packets are on their way in either.
+const EARLIER: usize = 2;
+
 /// A session is replaced by one with another key after this long.
 const RENEWAL: Duration = Duration::from_millis(600_000);
 
-/// A session in which nothing has come from the other member for so long is replaced. A robot that restarts begins new
+/// When nothing has come from the other member for so long, the session is replaced. A robot that restarts begins new
 /// sessions with robots itself, and robots of a large fleet that stand say nothing for up to 10 s. It begins none with
 /// operators, which robots answer more often.
 const SILENCE: Duration = Duration::from_millis(15_000);
@@ -96,8 +100,8 @@ pub struct Channel {
 struct Peer {
     /// The session to send in.
     current: Option<u32>,
-    /// The one before it, in which packets may still come.
-    previous: Option<u32>,
+    /// Those before it, the latest first, in which packets may still come.
+    earlier: Vec<u32>,
     /// A session that this end has answered to, and that the other end has not used yet.
     answered: Option<Answered>,
     /// An initiation that waits for its response.
@@ -220,9 +224,8 @@ impl Channel {
         let mut due = Vec::new();
         for (&member, peer) in &mut self.peers {
             let session = peer.current.and_then(|index| self.sessions.get(&index));
-            let is_good = session.is_some_and(|session| {
-                now.since(session.heard) < silence && now.since(session.begun) < RENEWAL
-            });
+            let is_young = session.is_some_and(|session| now.since(session.begun) < RENEWAL);
+            let is_good = is_young && peer.is_heard(&self.sessions, now, silence);
             // The other end has begun one, and is about to use it. Only the first attempt waits for that, as anyone can
             // repeat what the other end has sent.
             let answered = peer.answered.as_ref();
@@ -260,16 +263,12 @@ impl Channel {
     /// Forgets members that have begun a session of their own accord, as operators do, and are silent for long.
     fn forget_guests(&mut self, now: Time) {
         let sessions = &self.sessions;
-        let is_heard = |index: u32| {
-            let session = sessions.get(&index);
-            session.is_some_and(|session| now.since(session.heard) < RENEWAL)
-        };
         self.peers.retain(|_, peer| {
-            let answered = peer.answered.as_ref().map(|answered| answered.index);
-            let mut indices = [peer.current, peer.previous, answered]
-                .into_iter()
-                .flatten();
-            peer.is_wanted || indices.any(is_heard)
+            let answered = peer.answered.as_ref();
+            let answered = answered.and_then(|answered| sessions.get(&answered.index));
+            peer.is_wanted
+                || peer.is_heard(sessions, now, RENEWAL)
+                || answered.is_some_and(|session| now.since(session.begun) < RENEWAL)
         });
         let peers = &self.peers;
         self.sessions
@@ -374,11 +373,22 @@ impl Channel {
     fn promote(&mut self, with: Member, index: u32) {
         let peer = self.peers.entry(with).or_default();
         peer.attempts = 0;
-        let before = peer.current.replace(index);
-        let oldest = std::mem::replace(&mut peer.previous, before);
-        if let Some(oldest) = oldest {
+        if let Some(before) = peer.current.replace(index) {
+            peer.earlier.insert(0, before);
+        }
+        for oldest in peer.earlier.drain(EARLIER.min(peer.earlier.len())..) {
             self.sessions.remove(&oldest);
         }
+    }
+}
+
+impl Peer {
+    /// Whether something has come from it in any session within this time. When both ends begin a session, each may
+    /// use the other's for ever, and hears nothing in the one that it uses itself.
+    fn is_heard(&self, sessions: &BTreeMap<u32, Session>, now: Time, within: Duration) -> bool {
+        let used = self.current.iter().chain(&self.earlier);
+        used.filter_map(|index| sessions.get(index))
+            .any(|session| now.since(session.heard) < within)
     }
 }
 

@@ -212,6 +212,55 @@ fn a_member_does_not_begin_a_session_while_another_one_begins_it() {
     assert_eq!(b.due(at(300)).len(), 1, "the answer was lost");
 }
 
+/// Members that have both begun a session before either heard of the other's, so that each sends in its own.
+fn pair_that_began_at_once() -> (Channel, Channel) {
+    let (mut a, mut b) = (member(0, KEY), member(1, KEY));
+    a.want(1);
+    b.want(0);
+    let (from_a, from_b) = (a.due(Time::ZERO), b.due(Time::ZERO));
+    let answer = |end: &mut Channel, packet: &[u8]| match end.open(Time::ZERO, packet) {
+        Opened::Handshake { answer, .. } => answer.unwrap(),
+        other => panic!("{other:?}"),
+    };
+    let (to_a, to_b) = (answer(&mut b, &from_a[0].1), answer(&mut a, &from_b[0].1));
+    a.open(Time::ZERO, &to_a);
+    b.open(Time::ZERO, &to_b);
+    (a, b)
+}
+
+/// Each sends something once a second for so many seconds, and gets everything that the other has sent.
+fn talk(a: &mut Channel, b: &mut Channel, seconds: u64) {
+    for second in 0..seconds {
+        let now = Time::ZERO + Duration::from_millis(1000 * second);
+        // Both are on their way while a session is begun.
+        let (to_a, to_b) = (b.seal(0, b"b").unwrap(), a.seal(1, b"a").unwrap());
+        connect(a, b, now);
+        connect(b, a, now);
+        for (end, packet) in [(&mut *a, to_a), (&mut *b, to_b)] {
+            let opened = end.open(now, &packet);
+            assert!(
+                matches!(opened, Opened::Content { .. }),
+                "{second} s: {opened:?}"
+            );
+        }
+    }
+    assert_eq!(a.refusals().total() + b.refusals().total(), 0);
+}
+
+#[test]
+fn members_that_began_sessions_at_once_go_on_without_further_ones() {
+    let (mut a, mut b) = pair_that_began_at_once();
+    let sessions = a.sessions.len() + b.sessions.len();
+    talk(&mut a, &mut b, 100);
+    assert_eq!(a.sessions.len() + b.sessions.len(), sessions);
+}
+
+#[test]
+fn nothing_is_lost_while_a_session_is_renewed() {
+    let (mut a, mut b) = pair_that_began_at_once();
+    talk(&mut a, &mut b, 2000);
+}
+
 #[test]
 fn a_silent_session_is_used_until_another_one_takes_its_place() {
     let (mut a, mut b) = pair();
