@@ -1,6 +1,6 @@
 """Runs a fleet with many robots in processes of their own on this machine, and reports what its network loses.
 
-    target/venv/bin/python tools/crowd.py STARL FOLDER [--robots 100] [--seconds 60] [--link zenoh]
+    target/venv/bin/python tools/crowd.py STARL FOLDER [--robots 100] [--seconds 60] [--link router]
 
 Each robot tells all others something once a second without acknowledgement (`tools/crowd/crowd.starl`), and its runtime sends
 them beacons. When all robots hear each other, the script measures for `--seconds`: which datagrams in the traces of their
@@ -109,14 +109,17 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--robots", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=60)
-    parser.add_argument("--link", choices=["zenoh", "udp"], default="zenoh")
+    parser.add_argument("--link", choices=["router", "zenoh", "udp"], default="router", help="zenoh: without a router")
     arguments = parser.parse_args()
     starl, folder = str(pathlib.Path(arguments.starl).resolve()), pathlib.Path(arguments.folder).resolve()
     folder.mkdir(parents=True, exist_ok=False)
     (folder / "crowd.toml").write_text(scenario(arguments.robots))
     shutil.copy(HERE / "crowd/crowd.starl", folder)
-    link = f'[link]\nkind = "{arguments.link}"\nfirst_port = {FIRST_PORT}\n'
-    (folder / "fleet.toml").write_text(f'scenario = "crowd.toml"\n{link}')
+    has_router = arguments.link == "router"
+    place = f'router = "tcp/127.0.0.1:{FIRST_PORT}"' if has_router else f"first_port = {FIRST_PORT}"
+    kind = "zenoh" if has_router else arguments.link
+    (folder / "fleet.toml").write_text(f'scenario = "crowd.toml"\n[link]\nkind = "{kind}"\n{place}\n')
+    router = subprocess.Popen([starl, "fleet", "router", "fleet.toml"], cwd=folder) if has_router else None
     begun = time.monotonic()
     with open(folder / "output.txt", "w") as output:
         command = [starl, "fleet", "up", "fleet.toml", "--quiet"]
@@ -130,6 +133,7 @@ def main():
         epoch = int((run / "epoch").read_text()) * 1e-9
         processes = robots_of(up)
         time.sleep(SETTLING)
+        processes += [router.pid] if router else []
         begin, before = time.time() - epoch, [needs(process)[1] for process in processes]
         time.sleep(arguments.seconds)
         end, after = time.time() - epoch, [needs(process) for process in processes]
@@ -143,14 +147,18 @@ def main():
         if up.poll() is None:
             up.send_signal(signal.SIGINT)
             up.wait(timeout=300)
+        if router:
+            router.send_signal(signal.SIGINT)
+            router.wait(timeout=300)
     due, lost, delays = judge(run, arguments.robots, begin, end)
     part = lambda p: delays[min(len(delays) - 1, int(p * len(delays)))] * 1e3
-    memory, busy = [size for size, _ in after], sum(after[i][1] - before[i] for i in range(len(before))) / (end - begin)
+    memory = [size for size, _ in after]
+    busy = sum(after[i][1] - before[i] for i in range(len(before))) / (end - begin)
     print(f"datagrams: {due}, lost {lost} ({100 * lost / max(due, 1):.3f} %)")
     print(f"from sending to arrival: median {part(0.5):.1f} ms, p99 {part(0.99):.1f} ms, most {delays[-1] * 1e3:.1f} ms")
     worst = max((link["loss"] for robot in last for link in robot["links"]), default=1.0)
     print(f"beacons: {len(last)} robots answer, worst recent loss {worst:.3f}, {deaf(last, DEAF)} pairs deaf")
-    print(f"memory: {sum(memory):.0f} MiB, {max(memory):.1f} MiB for a robot; processors: {busy:.2f}")
+    print(f"memory: {sum(memory):.0f} MiB, {max(memory):.1f} MiB for the largest process; processors: {busy:.2f}")
     all_answer = len(last) == arguments.robots and not deaf(last, DEAF)
     sys.exit(0 if due and not lost and all_answer and stopped.returncode == 0 else 1)
 

@@ -285,6 +285,8 @@ pub enum FleetCommand {
     Merge(FleetMergeArguments),
     /// Create the fleet's key, which every member needs
     Key(FleetKeyArguments),
+    /// Run the Zenoh router that the fleet file names, until Ctrl-C
+    Router(FleetRouterArguments),
 }
 
 /// Arguments of `starl fleet up`.
@@ -353,6 +355,13 @@ pub struct FleetKeyArguments {
     /// Make a new key, and keep the present one valid until the key is changed again
     #[arg(long)]
     pub change: bool,
+}
+
+/// Arguments of `starl fleet router`.
+#[derive(Args, Debug)]
+pub struct FleetRouterArguments {
+    /// The fleet file
+    pub fleet: PathBuf,
 }
 
 /// Changes of a target that is run many times, or drawn.

@@ -156,7 +156,7 @@ impl Transport for Zenoh {
     fn learn(&mut self, _: Member, _: Origin) {}
 }
 
-/// What the keys under which the members of a fleet are reached begin with. Names may hold what keys may not.
+/// The first part of the keys under which the members of a fleet are reached. Names may hold what keys may not.
 fn prefix(fleet: &str) -> String {
     let name: String = fleet
         .bytes()

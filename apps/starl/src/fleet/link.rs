@@ -59,7 +59,7 @@ fn udp(
 /// Refuses certificates that the other members would not accept, and a network that this build does not have.
 #[cfg(feature = "zenoh")]
 pub fn check(fleet: &Fleet, robot: Option<&Member>) -> Result<(), Failure> {
-    let Some(tls) = certificates(fleet, robot) else {
+    let Some(tls) = certificates(fleet, name_of(robot)) else {
         return Ok(());
     };
     let listens = fleet.network.router.is_none();
@@ -68,13 +68,18 @@ pub fn check(fleet: &Fleet, robot: Option<&Member>) -> Result<(), Failure> {
     checked.map_err(|error| Failure::file(&fleet.path, format!("link.tls.{error}")))
 }
 
-/// The files of a member; none if the fleet has no certificates.
+/// The name of a member in the paths of certificates.
 #[cfg(feature = "zenoh")]
-fn certificates(fleet: &Fleet, robot: Option<&Member>) -> Option<starl_zenoh::Tls> {
+fn name_of(robot: Option<&Member>) -> &str {
+    robot.map_or("operator", |robot| &robot.name)
+}
+
+/// The files of the member with this name; none if the fleet has no certificates.
+#[cfg(feature = "zenoh")]
+fn certificates(fleet: &Fleet, name: &str) -> Option<starl_zenoh::Tls> {
     use std::path::Path;
 
     let tls = fleet.network.tls.as_ref()?;
-    let name = robot.map_or("operator", |robot| &robot.name);
     let folder = fleet.path.parent().unwrap_or(Path::new(""));
     let file = |path: &Path| folder.join(path.display().to_string().replace("NAME", name));
     Some(starl_zenoh::Tls {
@@ -97,7 +102,7 @@ fn zenoh(
     let network = &fleet.network;
     let scheme = if network.tls.is_some() { "tls" } else { "tcp" };
     let endpoint = |place: SocketAddr| format!("{scheme}/{place}");
-    let name = robot.map_or("operator", |robot| &robot.name);
+    let name = name_of(robot);
     let before = fleet
         .robots
         .iter()
@@ -117,7 +122,7 @@ fn zenoh(
             Some(_) => Mode::Client,
             None => Mode::Peer,
         },
-        tls: certificates(fleet, robot),
+        tls: certificates(fleet, name),
     };
     // First, because a client waits for its router.
     let probes = probes(fleet, robot)?;
@@ -131,12 +136,31 @@ fn zenoh(
     Ok(Box::new(joined.with_probes(probes)))
 }
 
+/// Runs the fleet's router until what is returned is dropped.
+#[cfg(feature = "zenoh")]
+pub fn route(fleet: &Fleet, endpoint: &str) -> Result<impl Sized + use<>, Failure> {
+    use starl_zenoh::{Mode, ZenohOptions};
+
+    let options = ZenohOptions {
+        listen: vec![endpoint.to_string()],
+        mode: Mode::Router,
+        tls: certificates(fleet, "router"),
+        ..ZenohOptions::default()
+    };
+    starl_zenoh::session(&options).map_err(|error| {
+        let what = format!(
+            "link.router: no router can run at {endpoint}: {error}; check that this machine has the address, and that no router runs there already"
+        );
+        Failure::file(&fleet.path, what)
+    })
+}
+
 /// Reports the members that refuse this one, or that have no TLS; none if the fleet has no certificates.
 #[cfg(feature = "zenoh")]
 fn probes(fleet: &Fleet, robot: Option<&Member>) -> Result<Option<starl_zenoh::Probes>, Failure> {
     use starl_zenoh::{Probed, Probes};
 
-    let Some(tls) = certificates(fleet, robot) else {
+    let Some(tls) = certificates(fleet, name_of(robot)) else {
         return Ok(None);
     };
     let others = fleet.robots.iter();
@@ -158,7 +182,7 @@ fn probes(fleet: &Fleet, robot: Option<&Member>) -> Result<Option<starl_zenoh::P
             .collect(),
     };
     let path = fleet.path.display().to_string();
-    let name = robot.map_or("operator", |robot| &robot.name).to_string();
+    let name = name_of(robot).to_string();
     let tell = move |problem: &str| {
         crate::console::complain(&format!("{name}: {path}: link.tls: {problem}\n"));
     };
@@ -183,6 +207,11 @@ fn zenoh(
     _: u32,
     _: impl Fn(Arrival) -> bool + Send + Sync + 'static,
 ) -> Result<Box<dyn Transport>, Failure> {
+    Err(no_zenoh(fleet))
+}
+
+#[cfg(not(feature = "zenoh"))]
+pub fn route(fleet: &Fleet, _: &str) -> Result<(), Failure> {
     Err(no_zenoh(fleet))
 }
 

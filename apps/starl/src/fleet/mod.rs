@@ -14,6 +14,7 @@ mod member;
 mod merge;
 mod recorder;
 mod ros2;
+mod router;
 mod status;
 mod stop;
 #[cfg(feature = "web")]
@@ -45,6 +46,7 @@ pub fn fleet(command: &FleetCommand, registry: &Registry) -> Result<bool, Failur
         FleetCommand::Stop(arguments) => stop::stop(arguments, registry),
         FleetCommand::Merge(arguments) => merge::run(arguments, registry),
         FleetCommand::Key(arguments) => key::make(arguments),
+        FleetCommand::Router(arguments) => router::run(arguments, registry),
     }
 }
 

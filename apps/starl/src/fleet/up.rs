@@ -97,13 +97,16 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
 
 /// Prints the processes to start, with their machines.
 fn print(arguments: &FleetUpArguments, fleet: &Fleet) -> Result<bool, Failure> {
+    let file = quoted(&arguments.fleet.display().to_string());
     let mut text = String::new();
+    if let Some(router) = &fleet.network.router {
+        text += &format!("{router}: starl fleet router {file}, or another Zenoh router\n");
+    }
     for robot in &fleet.robots {
         let program = arguments
             .program
             .as_ref()
             .map_or(String::new(), |program| format!(" {}", quoted(program)));
-        let file = quoted(&arguments.fleet.display().to_string());
         let ip = robot.address.ip();
         text += &format!(
             "{ip}: starl robot{program} --id {} --fleet {file}\n",

@@ -55,7 +55,7 @@ fn fleet(test: &str) -> std::path::PathBuf {
     folder
 }
 
-/// A fleet that runs until this is dropped.
+/// A fleet, or its router, that runs until this is dropped.
 pub(crate) struct Up(pub(crate) Child);
 
 impl Up {
@@ -86,12 +86,17 @@ fn idle() -> Child {
         .expect("there is such a command")
 }
 
+/// Presses Ctrl-C.
+fn interrupt(up: &Up) {
+    let id = up.0.id().to_string();
+    let _ = Command::new("kill").args(["-INT", &id]).status();
+}
+
 impl Drop for Up {
     fn drop(&mut self) {
         // In good order, so that it ends its robots.
-        let id = self.0.id().to_string();
         if self.0.try_wait().is_ok_and(|ended| ended.is_none()) {
-            let _ = Command::new("kill").args(["-INT", &id]).status();
+            interrupt(self);
         }
         let _ = self.0.wait();
     }
@@ -702,6 +707,56 @@ fn ros_2_robots_race_and_locate_themselves() {
         "{}",
         stdout(&output)
     );
+}
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn robots_race_by_a_router_that_starts_after_them() {
+    let folder = folder("fleet_router");
+    file(&folder, "race.toml", RACE);
+    let endpoint = format!("tcp/127.0.0.1:{}", ports(1));
+    let link = format!("link = {{ kind = \"zenoh\", router = \"{endpoint}\" }}\n");
+    file(
+        &folder,
+        "fleet.toml",
+        &format!("scenario = \"race.toml\"\n{link}"),
+    );
+    let printed = starl(&folder, &["fleet", "up", "fleet.toml", "--print"]);
+    let first = format!("{endpoint}: starl fleet router fleet.toml, or another Zenoh router\n");
+    assert!(stdout(&printed).starts_with(&first), "{}", stdout(&printed));
+    let up = Up::start(&folder, &[]);
+    std::thread::sleep(Duration::from_millis(500));
+    let mut router = command(&folder, &["fleet", "router", "fleet.toml"]);
+    let router = Up(router.stdout(Stdio::piped()).spawn().expect("it was built"));
+    let output = up.end();
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    assert!(stdout(&output).contains("broadcast.integrity   holds"));
+    let second = starl(&folder, &["fleet", "router", "fleet.toml"]);
+    assert_eq!(status(&second), 2);
+    let message = format!("fleet.toml: link.router: no router can run at {endpoint}: ");
+    assert!(stderr(&second).contains(&message), "{}", stderr(&second));
+    interrupt(&router);
+    let output = router.end();
+    assert_eq!(status(&output), 0);
+    assert_eq!(stdout(&output), format!("routing at {endpoint}\nready\n"));
+}
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn a_router_needs_a_place() {
+    let folder = fleet("fleet_no_router");
+    let refuse = |expected: &str| {
+        let output = starl(&folder, &["fleet", "router", "fleet.toml"]);
+        assert_eq!(status(&output), 2);
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    };
+    refuse("link.router: a router is for `kind = \"zenoh\"`");
+    file(
+        &folder,
+        "fleet.toml",
+        "scenario = \"race.toml\"\nlink.kind = \"zenoh\"\n",
+    );
+    refuse("link.router: give the place of the router");
 }
 
 #[cfg(feature = "zenoh")]

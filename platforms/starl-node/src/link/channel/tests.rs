@@ -248,7 +248,7 @@ fn talk(a: &mut Channel, b: &mut Channel, seconds: u64) {
 }
 
 #[test]
-fn members_that_began_sessions_at_once_go_on_without_further_ones() {
+fn members_that_began_sessions_at_once_need_no_further_ones() {
     let (mut a, mut b) = pair_that_began_at_once();
     let sessions = a.sessions.len() + b.sessions.len();
     talk(&mut a, &mut b, 100);
