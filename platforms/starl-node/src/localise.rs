@@ -54,9 +54,19 @@ pub struct Localiser {
     has_fixes: bool,
     state: Option<State>,
     outliers: u32,
-    /// When the robot measured its own motion last, what was believed then, and the fixes since.
-    measured: Option<(Time, Belief)>,
+    /// The last measurement of the robot's own motion, and the fixes since.
+    measured: Option<Measured>,
     since: VecDeque<(Time, Pose)>,
+}
+
+/// A measurement of the robot's own motion.
+#[derive(Clone, Copy, Debug)]
+struct Measured {
+    at: Time,
+    /// A belief since then, and its time: what was believed at the measurement, or, if the robot was carried away later,
+    /// where it was found.
+    belief: Belief,
+    from: Time,
 }
 
 /// A pose and the covariance of its x, y and heading.
@@ -105,10 +115,11 @@ impl Localiser {
                 turned: reading.turned.unwrap_or(0.0),
             };
             match self.measured {
-                Some((last, belief)) if last < at => {
-                    state.belief.go_back(&belief);
-                    let share = |time: Time| time.since(last).seconds() / at.since(last).seconds();
-                    let mut done = 0.0;
+                Some(last) if last.at < at => {
+                    state.belief.go_back(&last.belief);
+                    let whole = at.since(last.at).seconds();
+                    let share = |time: Time| time.since(last.at).seconds() / whole;
+                    let mut done = share(last.from).min(1.0);
                     for (time, pose) in self.since.drain(..) {
                         let until = share(time).clamp(done, 1.0);
                         state.belief.advance(motion.part(done, until), &accuracy);
@@ -120,7 +131,11 @@ impl Localiser {
                 _ => state.belief.advance(motion, &accuracy),
             }
             self.since.clear();
-            self.measured = Some((at, state.belief));
+            self.measured = Some(Measured {
+                at,
+                belief: state.belief,
+                from: at,
+            });
             state.has_odometry = true;
             if !has_fixes {
                 state.fresh = at;
@@ -162,18 +177,22 @@ impl Localiser {
                 ..State::at(pose, at, accuracy)
             };
             // The belief before is wrong.
-            self.measured = self.measured.map(|_| (at, state.belief));
+            self.measured = self.measured.map(|last| Measured {
+                belief: state.belief,
+                from: at.max(last.at),
+                ..last
+            });
             self.since.clear();
         } else {
             state.correct(&pose, &accuracy);
             match &mut self.measured {
-                Some((last, _)) if *last < at => {
+                Some(last) if last.at < at => {
                     self.since.push_back((at, pose));
                     if self.since.len() > MOST_SINCE {
                         self.since.pop_front();
                     }
                 }
-                Some((_, belief)) => *belief = state.belief,
+                Some(last) => last.belief = state.belief,
                 None => {}
             }
         }
@@ -446,6 +465,30 @@ mod tests {
             }
         }
         assert!(worst < 0.005, "{worst} m");
+    }
+
+    /// A robot whose odometry comes once a second drives straight, and is carried away on its way.
+    #[test]
+    fn odometry_is_not_added_to_the_place_where_a_robot_that_was_carried_away_is_found() {
+        let mut filter =
+            Localiser::new(Accuracy::default(), Some(Pose::default()), true, Time::ZERO);
+        filter.measure(at(0), &odometry(0.0, 0.0));
+        for tick in 1..=80u64 {
+            let driven = tick as f64 * 0.005;
+            let carried = if tick > 60 { 3.0 } else { 0.0 };
+            let truth = Point::planar(driven, carried);
+            let now = at(50 * tick);
+            // It is out of sight as soon as it is found.
+            if tick <= 70 {
+                filter.fix(now, Pose::level(truth, 0.0));
+            }
+            if tick % 20 == 0 {
+                filter.measure(now, &odometry(0.1, 0.0));
+                let (estimate, _) = filter.estimate().unwrap();
+                let error = estimate.pose.position.planar_distance(truth);
+                assert!(error < 0.01, "{error} m after {driven} m");
+            }
+        }
     }
 
     #[test]
