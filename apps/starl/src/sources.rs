@@ -185,6 +185,9 @@ pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
                 failures.push(Failure::file(argument, message));
             }
             files.into_iter().for_each(|path| add(Source::File(path)));
+        } else if argument.extension().is_some_and(|suffix| suffix == "toml") && argument.exists() {
+            let message = "is a scenario, not a program; `starl run` reads and checks it";
+            failures.push(Failure::file(argument, message));
         } else {
             add(Source::File(argument.clone()));
         }

@@ -581,9 +581,21 @@ fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
             "[world]: `world` is an address, such as world = \"127.0.0.1:7500\"; the obstacles are the scenario's".to_string()
         }
         true => format!("{written}: give an address with its port, such as \"127.0.0.1:7500\""),
+        false if is_scenario(text) => {
+            let name = path.file_name().unwrap_or_default().display();
+            format!("this is a scenario, which `starl run` runs; a fleet file names it by `scenario = \"{name}\"`")
+        }
         false => message.to_string(),
     };
     Failure(format!("{}:{line}: {message}", path.display()))
+}
+
+/// Whether this is a scenario instead: it lists groups of robots, or names their program.
+fn is_scenario(text: &str) -> bool {
+    let table: Option<toml::Table> = toml::from_str(text).ok();
+    table.is_some_and(|table| {
+        table.contains_key("program") || table.get("robots").is_some_and(toml::Value::is_array)
+    })
 }
 
 impl Device {

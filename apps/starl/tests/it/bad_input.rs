@@ -463,3 +463,22 @@ fn an_unknown_kind_of_event_lists_the_kinds() {
         &["choose one of: crash", "set_thing", "leave"],
     );
 }
+
+#[test]
+fn a_scenario_where_a_program_or_a_fleet_belongs() {
+    let folder = folder("misplaced_scenario");
+    let text = "program = \"race\"\n[[robots]]\nmodel = \"create\"\n";
+    file(&folder, "town.toml", text);
+    let refuse = |arguments: &[&str], expected: &str| {
+        let output = starl(&folder, arguments);
+        assert_eq!(status(&output), 2);
+        assert_eq!(stderr(&output), format!("error: town.toml{expected}\n"));
+    };
+    let program = ": is a scenario, not a program; `starl run` reads and checks it";
+    refuse(&["check", "town.toml"], program);
+    refuse(&["fmt", "town.toml"], program);
+    if cfg!(feature = "fleet") {
+        let fleet = ":1: this is a scenario, which `starl run` runs; a fleet file names it by `scenario = \"town.toml\"`";
+        refuse(&["fleet", "status", "town.toml"], fleet);
+    }
+}

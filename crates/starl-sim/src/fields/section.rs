@@ -14,6 +14,8 @@ use super::value::Complaint;
 #[derive(Clone, Copy)]
 pub(crate) struct Section<'a> {
     table: Option<&'a Table>,
+    /// Whether something else stands in its place, which is reported once.
+    is_replaced: bool,
     path: &'a Path<'a>,
     fields: &'static [Field],
     /// Where the table begins, or would.
@@ -42,6 +44,7 @@ impl<'a> Section<'a> {
     ) -> Section<'a> {
         let mut section = Section {
             table: None,
+            is_replaced: false,
             path,
             fields,
             origin,
@@ -54,8 +57,17 @@ impl<'a> Section<'a> {
                 section.check_names(table);
             }
             Some(other) => {
+                section.is_replaced = true;
                 let message = format!("{} is not a table", other.describe());
-                let help = format!("write [{}] or {{ ... }}", path.join(""));
+                let is_needed = |field: &&Field| field.default == Default::Required;
+                let needed = fields.iter().filter(is_needed);
+                let needed: Vec<String> = needed
+                    .map(|field| format!("{} = ...", field.name))
+                    .collect();
+                let help = match needed.is_empty() {
+                    true => format!("write [{}] or {{ ... }}", path.join("")),
+                    false => format!("write {{ {} }}", needed.join(", ")),
+                };
                 report.problem_with_help(origin, &path.join(""), message, help);
             }
         }
@@ -143,7 +155,7 @@ impl<'a> Section<'a> {
     ) -> Option<T> {
         let Some(node) = self.node(name) else {
             let Field { kind, default, .. } = self.field(name);
-            if *default == Default::Required {
+            if *default == Default::Required && !self.is_replaced {
                 let help = match kind {
                     Kind::Tables(_) => format!("write [[{}]]", self.path.join(name)),
                     kind => format!("give a value: {}", kind.describe()),

@@ -5,7 +5,7 @@ use super::schema::{Field, SCENARIO};
 use super::suggest;
 use super::tree::{Entry, Node, Table, Value, parse_value};
 
-/// Sets the value of an override at its dotted path, and creates missing tables on the path.
+/// Sets the value of an override at its dotted path, and creates missing tables and lists on the path.
 pub(super) fn set(root: &mut Node, path: &str, value: &str, origin: Origin, report: &Report) {
     let names: Vec<&str> = path.split('.').map(str::trim).collect();
     if names.iter().any(|name| name.is_empty()) {
@@ -40,9 +40,17 @@ fn descend<'a>(
         }
         node = match &mut node.value {
             Value::Table(table) => {
+                // A parameter may be a map, whose keys may be numbers.
+                let is_list = names.get(depth + 1) == Some(&"0") && !names.contains(&"parameters");
                 let empty = || Entry {
                     name_origin: origin,
-                    node: Node::empty(origin),
+                    node: match is_list {
+                        true => Node {
+                            value: Value::List(vec![Node::empty(origin)]),
+                            origin,
+                        },
+                        false => Node::empty(origin),
+                    },
                 };
                 &mut table.entry((*name).to_string()).or_insert_with(empty).node
             }

@@ -23,7 +23,7 @@ pub(super) fn starts(
     let given = given(drafts, names, contents, report);
     let fallback = contents.start_area.as_ref().or(contents.bounds.as_ref());
     let fallback = fallback.map(|placed| placed.value);
-    let fallback = fallback.or_else(|| surroundings(contents, drafts));
+    let fallback = fallback.unwrap_or_else(|| surroundings(contents, drafts));
     let mut placing = Placing::new(drafts, contents, fallback, report);
     let before = report.count();
     for (draft, starts) in drafts.iter().zip(&given) {
@@ -45,9 +45,8 @@ pub(super) fn starts(
                 drawn.push(placing.draw(draft, names, robot, seed)?);
             }
         }
-        if let Some(area) = placing.area(draft) {
-            drawn.sort_by_key(|pose| curve::position(&area, pose.position));
-        }
+        let area = placing.area(draft);
+        drawn.sort_by_key(|pose| curve::position(&area, pose.position));
         let mut drawn = drawn.into_iter();
         let pose =
             |start: Option<Placed<Pose>>| start.map(|start| start.value).or_else(|| drawn.next());
@@ -123,23 +122,38 @@ fn given(
     given
 }
 
-/// Where robots are placed if nothing else says so.
-fn surroundings(contents: &Contents, drafts: &[Draft]) -> Option<Bounds> {
+/// Where robots are placed if nothing else says so: around everything that has a place, or else around the origin.
+fn surroundings(contents: &Contents, drafts: &[Draft]) -> Bounds {
     let given = drafts
         .iter()
         .flat_map(|draft| &draft.starts)
-        .map(|start| start.value.position);
-    let around = Point::planar(1.0, 1.0);
-    let points = given.map(|point| Bounds {
-        low: point - around,
-        high: point + around,
-    });
+        .map(|start| around(start.value.position, 1.0));
     contents
         .surroundings()
         .into_iter()
-        .chain(points)
+        .chain(given)
         .reduce(|a, b| Bounds {
             low: Point::planar(a.low.x.min(b.low.x), a.low.y.min(b.low.y)),
             high: Point::planar(a.high.x.max(b.high.x), a.high.y.max(b.high.y)),
         })
+        .unwrap_or_else(|| around(Point::ZERO, room(drafts).max(1.0)))
+}
+
+/// The square around a point whose sides are this far away, metres.
+fn around(point: Point, distance: f64) -> Bounds {
+    let corner = Point::planar(distance, distance);
+    Bounds {
+        low: point - corner,
+        high: point + corner,
+    }
+}
+
+/// Half the side of a square in which all robots have room: each has a square twice as wide as itself and its distance
+/// to others, so that drawn places are mostly free.
+fn room(drafts: &[Draft]) -> f64 {
+    let area = |draft: &Draft| {
+        let side = 2.0 * (2.0 * draft.model.body().radius + draft.spacing);
+        draft.count as f64 * side * side
+    };
+    drafts.iter().map(area).sum::<f64>().sqrt() / 2.0
 }

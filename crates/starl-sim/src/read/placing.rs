@@ -28,7 +28,7 @@ pub(super) struct Placing<'a> {
     bodies: Grid,
     robots: Vec<RobotId>,
     /// Where robots go whose group has no area of its own.
-    fallback: Option<Bounds>,
+    fallback: Bounds,
     report: &'a Report,
 }
 
@@ -37,7 +37,7 @@ impl<'a> Placing<'a> {
     pub fn new(
         drafts: &[Draft],
         contents: &Contents,
-        fallback: Option<Bounds>,
+        fallback: Bounds,
         report: &'a Report,
     ) -> Placing<'a> {
         let obstacles: Vec<Obstacle> = contents
@@ -52,13 +52,9 @@ impl<'a> Placing<'a> {
         let spacing = manned().map(|draft| draft.spacing).fold(0.0, f64::max);
         let count: usize = drafts.iter().map(|draft| draft.count).sum();
         let areas = manned().filter_map(|draft| draft.area.as_ref().map(|area| area.value));
-        let whole = areas.chain(fallback).reduce(|a, b| Bounds {
+        let whole = areas.fold(fallback, |a, b| Bounds {
             low: Point::planar(a.low.x.min(b.low.x), a.low.y.min(b.low.y)),
             high: Point::planar(a.high.x.max(b.high.x), a.high.y.max(b.high.y)),
-        });
-        let whole = whole.unwrap_or(Bounds {
-            low: Point::ZERO,
-            high: Point::planar(1.0, 1.0),
         });
         Placing {
             obstacles: ObstacleIndex::new(&obstacles),
@@ -138,8 +134,8 @@ impl<'a> Placing<'a> {
     }
 
     /// Where robots of a group are placed.
-    pub fn area(&self, draft: &Draft) -> Option<Bounds> {
-        draft.area.as_ref().map(|area| area.value).or(self.fallback)
+    pub fn area(&self, draft: &Draft) -> Bounds {
+        draft.area.as_ref().map_or(self.fallback, |area| area.value)
     }
 
     /// A free place for a robot without a start; reports it if there is none.
@@ -154,17 +150,7 @@ impl<'a> Placing<'a> {
             Some(area) => (area.origin, area.field.clone()),
             None => (draft.origin, draft.path.clone()),
         };
-        let Some(area) = self.area(draft) else {
-            let name = names.name(robot);
-            let help = "give it a start, or set `world.start_area`";
-            self.complain(
-                origin,
-                &field,
-                format!("there is no area to place {name} in"),
-                help,
-            );
-            return None;
-        };
+        let area = self.area(draft);
         let radius = draft.model.body().radius;
         let (low, high) = (area.low, area.high);
         let mut random = Random::keyed(seed, &[PURPOSE, robot.0.into()]);

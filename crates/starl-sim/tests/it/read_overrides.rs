@@ -44,6 +44,14 @@ fn elements_of_lists() {
 }
 
 #[test]
+fn the_first_element_of_a_list_that_is_not_there_yet() {
+    let text = "program = \"race\"\n[[robots]]\nmodel = \"create\"\n";
+    let set = ["robots.0.start.0.position=[3, 4]"];
+    let scenario = reading::read(text, &set).unwrap().scenario;
+    assert_eq!(scenario.fleet.groups[0].starts[0].position.y, 4.0);
+}
+
+#[test]
 fn a_whole_list() {
     let faults = with(&["fault=[{ at = \"2s\", kind = \"crash\", robots = \"all\" }]"]).faults;
     assert_eq!(faults.schedule[0].at, Time(2_000_000_000));

@@ -126,6 +126,24 @@ fn robots_keep_clear_of_obstacles_and_inside_their_area() {
 }
 
 #[test]
+fn in_an_empty_world_all_robots_have_room_around_its_origin() {
+    for (model, count) in [("create", 1), ("create", 50), ("drone", 3000)] {
+        let text =
+            format!("program = \"race\"\n[[robots]]\nmodel = \"{model}\"\ncount = {count}\n");
+        let read = reading::read(&text, &[]).unwrap_or_else(|problems| panic!("{problems}"));
+        let starts = starts(&read.scenario);
+        assert_eq!(starts.len(), count);
+        // Each has at most 4 square metres.
+        let side = (4.0 * count as f64).sqrt();
+        assert!(
+            starts
+                .iter()
+                .all(|start| start.position.planar_length() <= side)
+        );
+    }
+}
+
+#[test]
 fn without_an_area_robots_are_placed_around_the_world() {
     let text = "program = \"race\"\n[[world.way_point]]\nname = \"A\"\nposition = [5, 5]\n\
         [[world.way_point]]\nname = \"B\"\nposition = [6, 5]\n[[robots]]\nmodel = \"create\"\ncount = 4\n";

@@ -19,7 +19,9 @@ pub(super) const WORLD: &[Field] = &[
     field(
         "start_area",
         Kind::Table(CORNERS),
-        Default::Depends("`bounds`, or else everything in the world and 1 m around it"),
+        Default::Depends(
+            "`bounds`, or else everything in the world and 1 m around it, or in an empty world a square around `[0, 0]`",
+        ),
         "The area in which robots without a start are placed, with their whole bodies.",
     ),
     tables(
