@@ -4,6 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::fit::{is_whole, whole};
 use super::report::{broken, counted, did_you_mean};
 use super::resolution::Symbol;
 use super::shape::Letters;
@@ -79,15 +80,33 @@ impl Checker {
         span: Span,
     ) -> Vec<Option<Expression>> {
         let mut checked = Vec::with_capacity(values.len());
+        // While the arguments are whole numbers, a Float may follow, as in `max(0, speed)`: then they are Floats too.
+        let mut are_whole = letters.is_empty();
         for (value, parameter) in values.into_iter().zip(&signature.parameters) {
-            checked.push(match value {
-                Some(value) => {
-                    let role = format!("the argument `{}`", parameter.name);
-                    Some(self.shaped(value, &parameter.shape, letters, &role))
+            let (shape, is_first) = (&parameter.shape, checked.is_empty());
+            let role = format!("the argument `{}`", parameter.name);
+            let value = match (value, shape) {
+                (Some(value), Shape::Letter(letter))
+                    if are_whole && !is_first && *shape == signature.parameters[0].shape =>
+                {
+                    let value = self.infer(Some(value), Some(&Type::Int));
+                    let is_float = value.ty == Type::Float;
+                    let expected = if is_float { Type::Float } else { Type::Int };
+                    letters.insert(*letter, expected.clone());
+                    Some(self.fit(value, &expected, &role))
                 }
-                None if parameter.is_optional => None,
-                None => Some(broken(span)),
-            });
+                (Some(value), _) => Some(self.shaped(value, shape, letters, &role)),
+                (None, _) if parameter.is_optional => None,
+                (None, _) => Some(broken(span)),
+            };
+            are_whole &=
+                *shape == signature.parameters[0].shape && value.as_ref().is_some_and(is_whole);
+            checked.push(value);
+        }
+        for (value, parameter) in checked.iter_mut().zip(&signature.parameters) {
+            if self.shape_type(&parameter.shape, letters) == Some(Type::Float) {
+                *value = value.take().map(whole);
+            }
         }
         checked
     }

@@ -2,7 +2,7 @@
 
 use alloc::format;
 
-use super::fit::{SAME_NAME, number_of, same};
+use super::fit::{SAME_NAME, number_of, same, whole};
 use super::report::{around, broken, joined};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -21,6 +21,7 @@ impl Checker {
         if left.ty == Type::Error || right.ty == Type::Error {
             return broken(span);
         }
+        let (left, right) = alike(operator, left, right);
         let (Some(ty), Some(resolved)) = (result(operator, &left.ty, &right.ty), resolve(operator))
         else {
             self.report_operator(operator, &left, &right, span);
@@ -125,6 +126,22 @@ impl Checker {
                 ")",
             )),
         }
+    }
+}
+
+/// The operands, with a whole number as a Float where the other one needs that.
+pub(super) fn alike(
+    operator: BinaryOperator,
+    left: Expression,
+    right: Expression,
+) -> (Expression, Expression) {
+    use BinaryOperator::{Divide, Multiply};
+    match (&left.ty, &right.ty, operator) {
+        (Type::Float, Type::Int, _) | (Type::Point, Type::Int, Multiply | Divide) => {
+            (left, whole(right))
+        }
+        (Type::Int, Type::Float, _) | (Type::Int, Type::Point, Multiply) => (whole(left), right),
+        _ => (left, right),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use alloc::boxed::Box;
 
+use super::arithmetic::alike;
 use super::fit::same;
 use super::report::{joined, made};
 use super::state::Checker;
@@ -50,6 +51,7 @@ impl Checker {
         if left.ty == Type::Error || right.ty == Type::Error {
             return broken_bool(span);
         }
+        let (left, right) = alike(operator, left, right);
         if !same(&left.ty, &right.ty) {
             self.report_operator(operator, &left, &right, span);
             return broken_bool(span);
@@ -99,6 +101,7 @@ impl Checker {
         if left.ty == Type::Error || right.ty == Type::Error {
             return broken_bool(span);
         }
+        let (left, right) = alike(operator, left, right);
         if !same(&left.ty, &right.ty) || !self.program.is_ordered(&left.ty) {
             self.report_operator(operator, &left, &right, span);
             return broken_bool(span);

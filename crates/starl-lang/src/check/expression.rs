@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::body::Where;
 use super::comparison::comparable;
-use super::fit::same;
+use super::fit::{same, whole};
 use super::report::{broken, made};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -282,6 +282,14 @@ impl Checker {
             let then = self.value(node.then(), Some(&hint), "the value after `then`");
             self.body.leave(mark);
             (then, otherwise)
+        };
+        let is_float = match expected {
+            Some(ty) => *ty == Type::Float,
+            None => then.ty == Type::Float || otherwise.ty == Type::Float,
+        };
+        let (then, otherwise) = match is_float {
+            true => (whole(then), whole(otherwise)),
+            false => (then, otherwise),
         };
         let ty = match expected {
             Some(ty) if same(&then.ty, ty) || same(&Type::optional(then.ty.clone()), ty) => {

@@ -42,6 +42,25 @@ fn operand(value: &Expression, after: &str) -> (&'static str, String) {
     }
 }
 
+/// Whether this is a whole number of the text.
+pub(super) fn is_whole(value: &Expression) -> bool {
+    matches!(value.kind, ExpressionKind::Int(_))
+}
+
+/// The value, where a Float belongs: a whole number is written `2` there as well as `2.0`, if a Float can be equal to it.
+pub(super) fn whole(value: Expression) -> Expression {
+    match value.kind {
+        ExpressionKind::Int(number) if number.unsigned_abs() <= 1 << f64::MANTISSA_DIGITS => {
+            Expression {
+                kind: ExpressionKind::Float(number as f64),
+                ty: Type::Float,
+                span: value.span,
+            }
+        }
+        _ => value,
+    }
+}
+
 impl Checker {
     /// Checks an expression whose type must be `expected`; `role` is its phrase in messages, such as "the condition".
     pub fn expect(
@@ -56,6 +75,11 @@ impl Checker {
 
     /// The value as one of the expected type.
     pub fn fit(&mut self, value: Expression, expected: &Type, role: &str) -> Expression {
+        let value = match expected {
+            Type::Float => whole(value),
+            Type::Optional(inner) if **inner == Type::Float => whole(value),
+            _ => value,
+        };
         if same(&value.ty, expected) {
             return value;
         }

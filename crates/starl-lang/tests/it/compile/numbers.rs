@@ -8,6 +8,37 @@ const DECLARATIONS: &str =
     "a: Int = 7\nb: Int = -3\nx: Float = 2.5\ny: Float = -0.5\nfar: Int = 3000000000";
 
 #[test]
+fn whole_numbers_are_floats_where_these_belong() {
+    let declarations = format!(
+        "{DECLARATIONS}\nz: Float = 4\nw: Float? = -5\nzs: List[Float] = [1, 2.5, -3]\np: Point = Point(1, 2)"
+    );
+    values(
+        &declarations,
+        &[
+            ("z", "4.0"),
+            ("w ?? 0", "-5.0"),
+            ("zs", "[1.0, 2.5, -3.0]"),
+            ("2 * x", "5.0"),
+            ("x / 2", "1.25"),
+            ("1 - x", "-1.5"),
+            ("x > 2 and 3 > x and x != 2", "true"),
+            ("2 * p / 4", "(0.5, 1.0, 0.0)"),
+            ("max(0, x)", "2.5"),
+            ("min(x, 1)", "1.0"),
+            ("max(1, 2)", "2"),
+            ("max(1, 2) / 4", "0"),
+            ("if x > 2 then 1 else 0.5", "1.0"),
+            ("(if x > 2 then 1 else 0) / 2", "0"),
+            ("sqrt(4)", "2.0"),
+            ("zs.contains(1)", "true"),
+            ("zs + [4]", "[1.0, 2.5, -3.0, 4.0]"),
+            // The division is of Ints, and its result is not in the text.
+            ("x + Float(7 / 2)", "5.5"),
+        ],
+    );
+}
+
+#[test]
 fn integers() {
     values(
         DECLARATIONS,
