@@ -233,7 +233,12 @@ def test_methods_and_expressions_go_together() -> None:
     [
         ({"reward": "1.0 +\n  gaol.x"}, ("reward", 2, 3), "there is no `gaol`", None),
         ({"reward": "distance(position, homes)"}, ("reward", 1, 20), "there is no `homes`", "did you mean `home`?"),
-        ({"reward": "1"}, ("reward", 1, 1), "the expression is an Int, not a Float", "write `1.0`"),
+        (
+            {"reward": "round(1.5)"},
+            ("reward", 1, 1),
+            "the expression is an Int, not a Float",
+            "convert it with `Float(...)`",
+        ),
         ({"terminated": "finished"}, ("terminated", 1, 1), "an environment does not know `finished`", None),
         ({"measures": {"a": "ranges[0]"}}, ('measures["a"]', 1, 1), "a task cannot use `ranges`", None),
         ({"information": {"a": "position"}}, ('information["a"]', 1, 1), "the expression has the wrong type", None),

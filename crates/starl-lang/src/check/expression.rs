@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::body::Where;
 use super::comparison::comparable;
-use super::fit::{same, whole};
+use super::fit::{fits_float, same, whole};
 use super::report::{broken, made};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -287,7 +287,7 @@ impl Checker {
             Some(ty) => *ty == Type::Float,
             None => then.ty == Type::Float || otherwise.ty == Type::Float,
         };
-        let (then, otherwise) = match is_float {
+        let (then, otherwise) = match is_float && fits_float(&then) && fits_float(&otherwise) {
             true => (whole(then), whole(otherwise)),
             false => (then, otherwise),
         };

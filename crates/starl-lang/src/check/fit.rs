@@ -47,16 +47,22 @@ pub(super) fn is_whole(value: &Expression) -> bool {
     matches!(value.kind, ExpressionKind::Int(_))
 }
 
+/// Whether this is a Float, or a whole number of the text that a Float is equal to.
+pub(super) fn fits_float(value: &Expression) -> bool {
+    match value.kind {
+        ExpressionKind::Int(number) => number.unsigned_abs() <= 1 << f64::MANTISSA_DIGITS,
+        _ => value.ty == Type::Float,
+    }
+}
+
 /// The value, where a Float belongs: a whole number is written `2` there as well as `2.0`, if a Float can be equal to it.
 pub(super) fn whole(value: Expression) -> Expression {
     match value.kind {
-        ExpressionKind::Int(number) if number.unsigned_abs() <= 1 << f64::MANTISSA_DIGITS => {
-            Expression {
-                kind: ExpressionKind::Float(number as f64),
-                ty: Type::Float,
-                span: value.span,
-            }
-        }
+        ExpressionKind::Int(number) if fits_float(&value) => Expression {
+            kind: ExpressionKind::Float(number as f64),
+            ty: Type::Float,
+            span: value.span,
+        },
         _ => value,
     }
 }
