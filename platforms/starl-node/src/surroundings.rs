@@ -9,7 +9,7 @@
 //! readings that the simulator defines ([`Readings`]), measured among these places and the obstacles of the scenario.
 
 use crate::localise::Localiser;
-use crate::robot::Setup;
+use crate::setup::Setup;
 use starl_core::event::Name;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Body;
@@ -209,7 +209,7 @@ mod tests {
     use super::*;
     use crate::Safety;
     use crate::localise::Accuracy;
-    use crate::robot::{MapObstacle, Thing};
+    use crate::setup::{MapObstacle, Thing};
     use starl_core::motion::Workspace;
     use starl_core::sensor::Detected;
     use starl_core::{Program, Random, Robot};
