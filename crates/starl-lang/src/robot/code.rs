@@ -1,11 +1,12 @@
 //! A program that robots can run: bytecode that was verified and joined to what robots offer.
 
 use super::atomic::{self, Conflicts, join_groups};
+use super::defaults::defaults;
 use super::failure::Failure;
+use super::instance::Instance;
 use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::orders::Orders;
-use super::parameter;
 use super::primitives::{KINDS, Needs};
 use super::rest;
 use super::services::Services;
@@ -48,21 +49,6 @@ struct Inner {
     initial: Result<State, Failure>,
 }
 
-/// A primitive that the program binds.
-#[derive(Clone, Debug)]
-pub struct Instance {
-    /// The name by which instances on different robots find each other.
-    pub name: String,
-    /// The name in the program.
-    pub variable: String,
-    /// Its kind, by its number in [`KINDS`].
-    pub kind: u16,
-    /// For each of the kind's events that is handled its number and the handler's.
-    pub handlers: Vec<(usize, u32)>,
-    /// The group of a linearizable variable, by the name of the first of it; else its own name.
-    pub group: String,
-}
-
 impl Code {
     /// Verifies bytecode and joins it to what robots offer.
     pub fn load(bytecode: Bytecode) -> Result<Code, LoadError> {
@@ -81,7 +67,7 @@ impl Code {
         })?;
         let networks = networks(program.bytecode())?;
         let stable = Stable::of(program.bytecode(), joiner.declared());
-        let initial = parameter::defaults(&program);
+        let initial = defaults(&program);
         let joints = joiner.finish();
         Ok(Code(Arc::new(Inner {
             initial: initial.map_err(|error| failure(&program, &error)),

@@ -2,8 +2,9 @@
 
 use super::arguments::{Arguments, Called};
 use super::atomic::{self, Script};
-use super::code::{Code, Instance};
+use super::code::Code;
 use super::failure::Failure;
+use super::instance::Instance;
 use super::joint::OnRobot;
 use super::messages::Outgoing;
 use super::primitives::{BoundPrimitive, KINDS, Slot};

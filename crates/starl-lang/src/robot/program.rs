@@ -1,8 +1,7 @@
 //! The program of one robot: its variables and its primitives, run by the machine.
 
-use super::acting::hold_back;
 use super::atomic::{Conflicts, Script, Turn};
-use super::code::{Code, Instance};
+use super::code::Code;
 use super::corruption;
 use super::failure::Failure;
 use super::host::{Context, RobotHost};
@@ -10,6 +9,7 @@ use super::messages::Arrival;
 use super::pace::Pace;
 use super::parameter::{self, ParameterError};
 use super::primitives::{Attended, Report, Slot};
+use super::reports::{handle_reports, hold_back};
 use super::rest::Disturbing;
 use super::services::Services;
 use super::stable::Kept;
@@ -300,23 +300,6 @@ impl Arrival<'_> {
     }
 }
 
-/// Runs the handlers of what primitives have reported, in the order in which it happened.
-fn handle_reports(
-    instances: &[Instance],
-    reports: &[(u32, Report)],
-    machine: &mut Machine<'_>,
-) -> Result<(), RuntimeError> {
-    for (instance, report) in reports {
-        let handlers = instances
-            .get(*instance as usize)
-            .map_or(&[][..], |instance| &instance.handlers);
-        for (_, handler) in handlers.iter().filter(|(event, _)| *event == report.event) {
-            machine.handler(*handler, &report.scalars, &report.objects)?;
-        }
-    }
-    Ok(())
-}
-
 /// Not derived: which primitives a program holds its code says, and their events are passed to the program.
 impl Primitives for RobotProgram {
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
@@ -355,7 +338,7 @@ impl Program for RobotProgram {
         self.run(robot, Part::Start);
         // After a start that failed, variables may be without their values.
         if self.phase == Phase::Running && self.kept.is_none() {
-            self.kept = Kept::at_start(&self.code, robot).map(Box::new);
+            self.kept = Kept::at_start(self.code.stable(), robot).map(Box::new);
         }
     }
 
@@ -403,7 +386,8 @@ impl Program for RobotProgram {
 
     fn save(&mut self, robot: &mut Robot<'_>) {
         if let Some(kept) = &mut self.kept {
-            kept.save(&self.code, &self.state, self.version, robot);
+            let values = (self.code.program(), &self.state);
+            kept.save(self.code.stable(), values, self.version, robot);
         }
     }
 

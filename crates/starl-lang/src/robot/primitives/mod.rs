@@ -20,8 +20,8 @@ pub use attended::{Attended, BoundPrimitive};
 pub(super) use shared::{candidates, give, give_all};
 
 use super::arguments::{Arguments, Called};
-use super::code::Instance;
 use super::host::Context;
+use super::instance::Instance;
 use super::shape::{Shape, Signature};
 use crate::machine::{HostCall, Object};
 use alloc::borrow::Cow;
