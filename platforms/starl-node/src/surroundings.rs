@@ -15,8 +15,7 @@ use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Body;
 use starl_core::{Duration, Obstacle, Point, Pose, RobotId, Time};
 use starl_motion::Neighbour;
-use starl_motion::contact::Grid;
-use starl_motion::proximity::Scene;
+use starl_motion::scene::{Grid, Scene};
 use starl_motion::sensing::{Readings, SensorSuite};
 
 /// A robot that is not perceived for longer stands where it was last.
