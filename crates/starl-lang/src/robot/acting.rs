@@ -22,7 +22,7 @@ impl RobotProgram {
         let code = self.code.clone();
         while self.phase == Phase::Running
             && let Some(atomic) = &mut self.services.atomic
-            && let Some(step) = atomic.go_on(robot, &code)
+            && let Some(step) = atomic.go_on(robot, code.groups())
         {
             match step {
                 Step::Try(action, values) => {
@@ -42,7 +42,7 @@ impl RobotProgram {
                     }
                     self.run(robot, Part::Perform(action, script));
                     if let Some(atomic) = &mut self.services.atomic {
-                        atomic.release(robot, &code);
+                        atomic.release(robot, code.groups());
                     }
                 }
             }
@@ -60,7 +60,8 @@ impl RobotProgram {
         let code = &self.code;
         let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
         let mut services = self.services.clone();
-        if let (Some(atomic), Some(group)) = (&mut services.atomic, code.group(action)) {
+        if let (Some(atomic), Some(group)) = (&mut services.atomic, code.groups().of_action(action))
+        {
             atomic.open(group, values);
         }
         robot.rehearse(|robot| {
@@ -95,7 +96,7 @@ impl RobotProgram {
         let tried = tried?;
         match &mut self.services.atomic {
             Some(atomic) if self.phase == Phase::Running => atomic
-                .store(robot, &self.code, tried)
+                .store(robot, self.code.groups(), tried)
                 .map_err(Failure::NotStored),
             _ => Ok(()),
         }
@@ -103,7 +104,7 @@ impl RobotProgram {
 
     /// Whether a message must wait until an action with `atomic` has taken place.
     pub(super) fn must_wait(&self, message: &Message) -> bool {
-        if self.services.held(&self.code).is_none() {
+        if self.code.held(&self.services).is_none() {
             return false;
         }
         let program = self.code.program();
@@ -113,7 +114,7 @@ impl RobotProgram {
 
     /// Whether an event with these handlers must wait until an action with `atomic` has taken place.
     pub(super) fn holds(&self, handlers: &[u32]) -> bool {
-        self.services.held(&self.code).is_some_and(|held| {
+        self.code.held(&self.services).is_some_and(|held| {
             let mut handlers = handlers.iter();
             !self.waiting.is_empty() || handlers.any(|&handler| held.keeps_handler(handler))
         })
@@ -149,7 +150,7 @@ impl RobotProgram {
 
     /// Handles what had to wait, if it need not any longer.
     fn catch_up(&mut self, robot: &mut Robot<'_>) {
-        if self.services.held(&self.code).is_some() {
+        if self.code.held(&self.services).is_some() {
             return;
         }
         if !self.reports.is_empty() {

@@ -140,7 +140,7 @@ impl RobotProgram {
         }
         let code = &self.code;
         let (paces, now) = (&mut self.paces, robot.now());
-        let held = self.services.held(code);
+        let held = code.held(&self.services);
         let mut reports = mem::take(&mut self.reports);
         self.reports = hold_back(code.instances(), &mut reports, held);
         let mut bench = robot.take_scratch::<Workbench>();
@@ -196,7 +196,7 @@ impl RobotProgram {
         self.phase = Phase::Failed;
         // Others need not wait for it.
         if let Some(atomic) = &mut self.services.atomic {
-            atomic.release(robot, &self.code);
+            atomic.release(robot, self.code.groups());
         }
     }
 }
@@ -251,7 +251,7 @@ impl Part<'_> {
                 let actions = (0..).zip(&program.bytecode().actions).zip(paces);
                 let mut actions = actions.skip(code.checks() as usize);
                 actions.try_for_each(|((number, action), pace)| {
-                    if code.group(number).is_some() {
+                    if code.groups().of_action(number).is_some() {
                         if turn.asks(number) {
                             turn.note(number, pace.is_due(action, number, now, machine)?);
                         }
@@ -317,9 +317,10 @@ impl Primitives for RobotProgram {
             });
         }
         let rests = &mut self.rests;
-        self.services.primitives(&self.code, &mut |primitive| {
-            visit(&mut Disturbing { primitive, rests });
-        });
+        self.services
+            .primitives(self.code.groups(), &mut |primitive| {
+                visit(&mut Disturbing { primitive, rests });
+            });
     }
 }
 
@@ -334,7 +335,7 @@ impl Program for RobotProgram {
         self.rests = false;
         self.target = None;
         self.paces.fill(Pace::default());
-        self.services = Services::start(&self.code, robot);
+        self.services = self.code.services().started(self.code.groups(), robot);
         self.run(robot, Part::Start);
         // After a start that failed, variables may be without their values.
         if self.phase == Phase::Running && self.kept.is_none() {
@@ -350,14 +351,14 @@ impl Program for RobotProgram {
         }
         let mut turn = Turn::default();
         if let Some(atomic) = &mut self.services.atomic {
-            turn = atomic.turn(robot, &self.code);
+            turn = atomic.turn(robot, self.code.groups());
         }
         self.run(robot, Part::Actions(&mut turn));
         debug_assert!(!rests || self.rests, "an action is enabled without cause");
         if let Some(atomic) = &mut self.services.atomic
             && self.phase == Phase::Running
         {
-            atomic.take_turn(robot, &self.code, turn);
+            atomic.take_turn(robot, self.code.groups(), turn);
         }
         self.go_on(robot);
     }
@@ -408,7 +409,7 @@ impl Program for RobotProgram {
                 pace.corrupt(random);
             }
         }
-        self.services.corrupt(&self.code, random);
+        self.services.corrupt(self.code.groups(), random);
     }
 
     fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
