@@ -37,8 +37,7 @@ export function withoutBench(): Plugin {
     name: "without-bench",
     enforce: "pre",
     resolveId: (source) => (source.endsWith("/Bench.tsx") ? NONE : null),
-    load: (id) =>
-      id === NONE ? "export const Bench = () => null; export const benchTab = { value: '' };" : null,
+    load: (id) => (id === NONE ? "export const Bench = () => null;" : null),
   };
 }
 

@@ -2,8 +2,8 @@
 
 import { render } from "preact";
 import { App } from "./app/App.tsx";
-import { askHost, run, start } from "./app/context.ts";
-import { expectsRun, loadRobots, loadScreen, loadStage, loadTimeline } from "./app/loads.ts";
+import { askHost, expectsRun, run, start } from "./app/context.ts";
+import { loadRobots, loadScreen, loadStage, loadTimeline } from "./app/loads.ts";
 import { simulator } from "./engine/simulator.ts";
 import { begin } from "./project/begin.ts";
 import { returning } from "./project/project.ts";

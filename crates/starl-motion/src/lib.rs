@@ -16,6 +16,7 @@ pub mod parameters;
 pub mod pilot;
 pub mod planning;
 pub mod proximity;
+pub mod scene;
 pub mod sensing;
 pub mod tracking;
 

@@ -2,10 +2,10 @@
 //! proximity sensors.
 
 use crate::Neighbour;
-use crate::contact::Grid;
+use crate::scene::Scene;
 use alloc::vec::Vec;
 use starl_core::Point;
-use starl_core::geometry::{Bounds, ObstacleIndex};
+use starl_core::geometry::Bounds;
 use starl_core::math;
 
 /// Rays evenly round a body, the first straight ahead.
@@ -17,17 +17,6 @@ pub struct Rays {
     pub range: f64,
     /// Sine and cosine of each bearing.
     directions: Vec<(f64, f64)>,
-}
-
-/// The world that rays meet.
-#[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
-    /// All bodies.
-    pub bodies: &'a [Neighbour],
-    /// An index of them.
-    pub grid: &'a Grid,
-    /// The obstacles.
-    pub map: &'a ObstacleIndex,
 }
 
 impl Rays {

@@ -4,7 +4,8 @@
 //! received: see `starl-node`.
 
 use crate::Neighbour;
-use crate::proximity::{Rays, Scene};
+use crate::proximity::Rays;
+use crate::scene::Scene;
 use alloc::vec::Vec;
 use starl_core::math;
 use starl_core::sensor::{Detected, Detection, Ray};

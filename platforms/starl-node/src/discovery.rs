@@ -3,7 +3,7 @@
 //! Hidden obstacles of the scenario are perceived as in the simulator, from the place where the robot believes to be.
 //! Where its bumper meets something that no obstacle and no robot explains, the robot takes it for a post.
 
-use crate::robot::Setup;
+use crate::setup::Setup;
 use crate::surroundings::Surroundings;
 use starl_core::motion::Obstacles;
 use starl_core::sensor::Contact;

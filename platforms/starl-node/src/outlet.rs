@@ -1,6 +1,6 @@
 //! The runtime's side of a robot's node while it handles an input: its requests are collected, and executed afterwards.
 
-use crate::robot::Recorder;
+use crate::recorder::Recorder;
 use crate::surroundings::Surroundings;
 use starl_core::{Event, Point, Time};
 use starl_host::{Datagram, Observed, Outlet, PlanJob, StoreJob, Workspace};

@@ -9,14 +9,13 @@
 //! readings that the simulator defines ([`Readings`]), measured among these places and the obstacles of the scenario.
 
 use crate::localise::Localiser;
-use crate::robot::Setup;
+use crate::setup::Setup;
 use starl_core::event::Name;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Body;
 use starl_core::{Duration, Obstacle, Point, Pose, RobotId, Time};
 use starl_motion::Neighbour;
-use starl_motion::contact::Grid;
-use starl_motion::proximity::Scene;
+use starl_motion::scene::{Grid, Scene};
 use starl_motion::sensing::{Readings, SensorSuite};
 
 /// A robot that is not perceived for longer stands where it was last.
@@ -209,7 +208,7 @@ mod tests {
     use super::*;
     use crate::Safety;
     use crate::localise::Accuracy;
-    use crate::robot::{MapObstacle, Thing};
+    use crate::setup::{MapObstacle, Thing};
     use starl_core::motion::Workspace;
     use starl_core::sensor::Detected;
     use starl_core::{Program, Random, Robot};

@@ -1,7 +1,6 @@
 // The page as a whole: what is written on the left, the world in the middle, what is known of the run on the right,
 // time below.
 
-import { signal } from "@preact/signals";
 import { DropPlace } from "../files/OpenFiles.tsx";
 import { Transport } from "../timeline/Transport.tsx";
 import { WorldView } from "../world/WorldView.tsx";
@@ -13,11 +12,9 @@ import { lazy } from "./lazy.tsx";
 import { loadTimeline } from "./loads.ts";
 import { Problem } from "./Problem.tsx";
 import { Side } from "./Side.tsx";
+import { part } from "./shown.ts";
 
 const Timeline = lazy(loadTimeline);
-
-/** Which part a small screen shows. */
-export const part = signal<"write" | "world" | "inspect">("world");
 
 const PARTS = [
   ["write", "Write"],

@@ -1,17 +1,15 @@
 // The editing side of the page: programs, the scenario, and where to begin.
 
-import { signal } from "@preact/signals";
 import { Editor } from "../editor/Editor.tsx";
 import { Gallery } from "../gallery/Gallery.tsx";
 import { LessonStrip } from "../lesson/LessonStrip.tsx";
 import { lazy } from "./lazy.tsx";
+import { benchTab } from "./shown.ts";
 import { type Tab, Tabs } from "./Tabs.tsx";
 
 const Lesson = lazy(async () => (await import("../lesson/Lesson.tsx")).Lesson);
 const Scenario = lazy(async () => (await import("../scenario/Scenario.tsx")).Scenario);
 const Sweep = lazy(async () => (await import("../sweep/Sweep.tsx")).Sweep);
-
-export const benchTab = signal("gallery");
 
 const TABS: Tab[] = [
   { name: "gallery", label: "Examples", panel: Gallery },

@@ -4,7 +4,7 @@ import { violations } from "../inspect/violations.ts";
 import { run } from "./context.ts";
 import { lazy } from "./lazy.tsx";
 import { loadRobots } from "./loads.ts";
-import { sideTab } from "./side-tab.ts";
+import { sideTab } from "./shown.ts";
 import { type Tab, Tabs } from "./Tabs.tsx";
 
 const Breakpoints = lazy(async () => (await import("../breakpoints/Breakpoints.tsx")).Breakpoints);

@@ -18,6 +18,9 @@ export type Start =
 
 export const start = signal<Start>({ mode: "web" });
 
+/** Whether the page is about to open a run. The world is made ready while the run is. */
+export const expectsRun = signal(false);
+
 /** Asks the host of the page what it was opened for. A static host answers with public/start.json. */
 export async function askHost(): Promise<Start> {
   try {

@@ -1,10 +1,5 @@
 // Parts of the page that show a run. Their code is loaded when they are first needed, or at once if a run is expected.
 
-import { signal } from "@preact/signals";
-
-/** Whether the page is about to open a run. The world is made ready while the run is. */
-export const expectsRun = signal(false);
-
 /** The view of the world. */
 export const loadScreen = () => import("../world/world.ts");
 

@@ -1,8 +1,7 @@
 // Shows a place in a file.
 
 import { batch, signal } from "@preact/signals";
-import { part } from "../app/App.tsx";
-import { benchTab } from "../app/Bench.tsx";
+import { benchTab, part } from "../app/shown.ts";
 import type { Diagnostic } from "../engine/types.ts";
 import { project, show } from "../project/project.ts";
 import { type Range, units } from "./offsets.ts";

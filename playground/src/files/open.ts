@@ -1,9 +1,8 @@
 // Opens files of the person's machine: a trace is played as it is read, programs and scenarios become a project, of
 // which the first scenario is run. Nothing is uploaded.
 
-import { part } from "../app/App.tsx";
-import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
+import { benchTab, part } from "../app/shown.ts";
 import { EngineError } from "../engine/client.ts";
 import { LIMITS, pathProblem } from "../project/model.ts";
 import { start } from "../project/project.ts";

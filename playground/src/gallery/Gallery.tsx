@@ -1,9 +1,9 @@
 // Every example with a picture, where a click opens its files and its run; and the tasks for learning.
 
 import { useEffect } from "preact/hooks";
-import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
 import { lazy } from "../app/lazy.tsx";
+import { benchTab } from "../app/shown.ts";
 import { Projects } from "../project/Projects.tsx";
 import { recent } from "../project/project.ts";
 import { examples, loadExamples, openExample, titleOf } from "./examples.ts";

@@ -1,8 +1,8 @@
 // The examples that come with the simulator. Opening one copies its files into a project.
 
 import { signal } from "@preact/signals";
-import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
+import { benchTab } from "../app/shown.ts";
 import { EngineError } from "../engine/client.ts";
 import type { Example } from "../engine/types.ts";
 import * as project from "../project/project.ts";

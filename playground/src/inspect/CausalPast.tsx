@@ -2,7 +2,7 @@
 
 import { run } from "../app/context.ts";
 import { seconds } from "../app/format.ts";
-import { sideTab } from "../app/side-tab.ts";
+import { sideTab } from "../app/shown.ts";
 import { marked, markedPast } from "../messages/known.ts";
 import { describe } from "../timeline/lanes.ts";
 import { nameOf } from "./names.ts";

@@ -1,8 +1,8 @@
 // How far a person has come in the lesson.
 
 import { computed, effect, signal } from "@preact/signals";
-import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
+import { benchTab } from "../app/shown.ts";
 import { checked, diagnostics } from "../project/checking.ts";
 import { addFile, open, project, setText, show, start } from "../project/project.ts";
 import { remember, remembered } from "../project/storage.ts";

@@ -1,6 +1,6 @@
 // The projects that the browser keeps.
 
-import { benchTab } from "../app/Bench.tsx";
+import { benchTab } from "../app/shown.ts";
 import { OpenButton } from "../files/OpenFiles.tsx";
 import { emptyDraft, forget, open, project, recent, start } from "./project.ts";
 

@@ -1,8 +1,7 @@
 // The initial project of the page: the one in its address, or the last one.
 
-import { part } from "../app/App.tsx";
-import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
+import { benchTab, part } from "../app/shown.ts";
 import { openExample } from "../gallery/examples.ts";
 import { keepChecking } from "./checking.ts";
 import { returning } from "./project.ts";

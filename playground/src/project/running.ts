@@ -2,8 +2,8 @@
 // shown as it is.
 
 import { effect, signal } from "@preact/signals";
-import { part } from "../app/App.tsx";
 import { run } from "../app/context.ts";
+import { part } from "../app/shown.ts";
 import { EngineError } from "../engine/client.ts";
 import { check, diagnostics } from "./checking.ts";
 import { errorsOf, optionsOf } from "./model.ts";

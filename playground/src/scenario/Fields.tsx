@@ -1,16 +1,14 @@
-// The fields of a table as a form.
+// The fields of a table as a form, and a list of tables as a form: robots, waypoints, faults.
 
 import type { JSX } from "preact";
-import { useState } from "preact/hooks";
-import { put } from "./document.ts";
-import { Elements } from "./Elements.tsx";
+import { edit } from "./document.ts";
+import { describe, first, singular, withModel } from "./element.ts";
 import { Parameters } from "./Parameters.tsx";
-import { complaints } from "./problems.ts";
-import { type Field, fieldsOf } from "./schema.ts";
+import { type One, Single } from "./Single.tsx";
+import { type Field, fieldsOf, type Schema } from "./schema.ts";
 import { isTable, type Table, tablesOf } from "./table.ts";
-import type { Toml } from "./toml/edit.ts";
+import { append, remove, type Toml } from "./toml/edit.ts";
 import type { Path } from "./toml/layout.ts";
-import { read, show } from "./values.ts";
 
 export interface Place {
   fields: Field[];
@@ -32,12 +30,6 @@ export function Fields({ fields, path, value }: Place) {
       ))}
     </div>
   );
-}
-
-interface One {
-  field: Field;
-  path: Path;
-  value: Toml | undefined;
 }
 
 export function AnyField({ field, path, value, owner }: One & { owner: Table }): JSX.Element {
@@ -71,67 +63,40 @@ export function Count({ value }: { value: Toml | undefined }) {
   return count > 0 ? <span class="badge">{count} set</span> : null;
 }
 
-/** A field that is one input. */
-export function Single({ field, path, value }: One) {
-  const [problem, setProblem] = useState<string | null>(null);
-  const id = `field-${path.join("-")}`;
-  const change = (text: string) => {
-    try {
-      put(path, read(field, text));
-      setProblem(null);
-    } catch (error) {
-      setProblem((error as Error).message);
-    }
-  };
-  const said = problem ?? complaints.value.get(path.join(".")) ?? null;
-  const common = { id, "aria-invalid": said !== null, "aria-describedby": `${id}-about` };
-  const shown = isTable(value) && field.kind === "flag" ? "true" : show(field, value);
-  const choices = field.kind === "flag" ? ["true", "false"] : field.choices;
-  const isSelect = field.kind === "flag" || field.kind === "choice" || field.kind === "model";
-  return (
-    <div class="field">
-      <label for={id}>{field.label}</label>
-      {isSelect ? (
-        <select {...common} value={shown} onChange={(event) => change(event.currentTarget.value)}>
-          {!field.required && (
-            <option value="">{field.default ? `${word(field.default)} (default)` : ""}</option>
-          )}
-          {shown !== "" && !choices.includes(shown) && <option value={shown}>{shown}</option>}
-          {choices.map((choice) => (
-            <option key={choice} value={choice}>
-              {word(choice)}
-            </option>
-          ))}
-        </select>
-      ) : (
-        <input
-          {...common}
-          value={shown}
-          placeholder={field.required ? "" : field.default}
-          list={field.choices.length > 0 ? `${id}-choices` : undefined}
-          spellcheck={false}
-          autocomplete="off"
-          onChange={(event) => change(event.currentTarget.value)}
-        />
-      )}
-      {!isSelect && field.choices.length > 0 && (
-        <datalist id={`${id}-choices`}>
-          {field.choices.map((choice) => (
-            <option key={choice} value={choice} />
-          ))}
-        </datalist>
-      )}
-      <p id={`${id}-about`} class={said ? "error" : "about muted"} role={said ? "alert" : undefined}>
-        {said ?? `${field.about} ${hint(field)}`}
-      </p>
-    </div>
-  );
+interface List {
+  field: Field;
+  table: Schema;
+  path: Path;
+  values: Table[];
 }
 
-const WORDS: Record<string, string> = { true: "yes", false: "no" };
-const word = (choice: string) => WORDS[choice] ?? choice;
-
-function hint({ units, limits }: Field): string {
-  const named = units.length > 0 ? `Units: ${units.join(", ")}.` : "";
-  return limits === "" ? named : `${limits.charAt(0).toUpperCase()}${limits.slice(1)}. ${named}`;
+function Elements({ field, table, path, values }: List) {
+  const fields = fieldsOf(table);
+  const one = singular(field.label);
+  return (
+    <details class="table" open={values.length > 0 && values.length < 4 && path.length === 1}>
+      <summary>
+        {field.label} {values.length > 0 && <span class="badge">{values.length}</span>}
+      </summary>
+      <p class="muted">{field.about}</p>
+      {values.map((value, index) => {
+        const place = [...path, index];
+        return (
+          <details class="element" key={place.join(".")} open={values.length === 1}>
+            <summary>{describe(value, index, one)}</summary>
+            <Fields fields={withModel(fields, table, value)} path={place} value={value} />
+            <button type="button" onClick={() => edit((text) => remove(text, place))}>
+              Remove this {one.toLowerCase()}
+            </button>
+          </details>
+        );
+      })}
+      <button
+        type="button"
+        onClick={() => edit((text) => append(text, path, first(field.name, fields, values)))}
+      >
+        Add {one.toLowerCase()}
+      </button>
+    </details>
+  );
 }

@@ -2,8 +2,8 @@
 
 import { useSignal } from "@preact/signals";
 import { put } from "./document.ts";
-import { Single } from "./Fields.tsx";
 import { parameterNames } from "./problems.ts";
+import { Single } from "./Single.tsx";
 import { type Field, labelOf } from "./schema.ts";
 import type { Table } from "./table.ts";
 import type { Path } from "./toml/layout.ts";

@@ -2,7 +2,7 @@
 
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { benchTab } from "../app/Bench.tsx";
+import { benchTab } from "../app/shown.ts";
 import { Dialog } from "../project/Dialog.tsx";
 import { project, start } from "../project/project.ts";
 import { runProject, seed } from "../project/running.ts";

@@ -1,9 +1,8 @@
 // Opens a run of a sweep in the viewer, as it is or shrunk, and goes to what went wrong.
 
 import { signal } from "@preact/signals";
-import { part } from "../app/App.tsx";
 import { run } from "../app/context.ts";
-import { sideTab } from "../app/side-tab.ts";
+import { part, sideTab } from "../app/shown.ts";
 import { EngineError } from "../engine/client.ts";
 import { simulator } from "../engine/simulator.ts";
 import { showViolation } from "../inspect/violations.ts";

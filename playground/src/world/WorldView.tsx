@@ -2,8 +2,8 @@
 
 import { effect, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { run } from "../app/context.ts";
-import { expectsRun, loadScreen } from "../app/loads.ts";
+import { expectsRun, run } from "../app/context.ts";
+import { loadScreen } from "../app/loads.ts";
 import "../styles/world.css";
 import { measured, pointed, tool } from "./pick.ts";
 import { Toolbar } from "./Toolbar.tsx";

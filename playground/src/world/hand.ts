@@ -6,6 +6,7 @@ import type { Point } from "../engine/types.ts";
 import { Controls, type Listener } from "./controls.ts";
 import { find } from "./find.ts";
 import { movedBy, placeOf } from "./move.ts";
+import type { Overlay } from "./overlay/overlay.ts";
 import {
   clicked,
   followed,
@@ -17,7 +18,19 @@ import {
   type Target,
   tool,
 } from "./pick.ts";
-import type { WorldScreen } from "./world.ts";
+import type { Scene } from "./scene.ts";
+import type { View } from "./view.ts";
+
+/** The screen that a hand works on. */
+export interface Screen {
+  readonly view: View;
+  readonly scene: Scene;
+  readonly overlay: Overlay;
+  /** Shows what moves, or everything. */
+  fit(whole: boolean): void;
+  /** The view was changed by hand. */
+  taken(moved: boolean): void;
+}
 
 export class Hand implements Listener {
   #controls: Controls;
@@ -26,7 +39,7 @@ export class Hand implements Listener {
 
   constructor(
     private readonly element: HTMLElement,
-    private readonly screen: WorldScreen,
+    private readonly screen: Screen,
   ) {
     this.#controls = new Controls(element, screen.view, this);
   }

@@ -1,13 +1,12 @@
 // The view of the world on the page: makes a picture when something has changed, and never otherwise.
 
 import { effect } from "@preact/signals";
-import { run } from "../app/context.ts";
-import { expectsRun, loadStage } from "../app/loads.ts";
+import { expectsRun, run } from "../app/context.ts";
 import { theme } from "../app/theme.ts";
 import { POSE_NUMBERS } from "../engine/types.ts";
 import { movingBox, wholeBox } from "./fit.ts";
 import { Flat } from "./flat.ts";
-import { Hand } from "./hand.ts";
+import { Hand, type Screen } from "./hand.ts";
 import { Happenings } from "./happenings.ts";
 import { flat, hidden } from "./layers.ts";
 import { Overlay } from "./overlay/overlay.ts";
@@ -22,7 +21,7 @@ const LOOK_EVERY = 400;
 /** How long what has just happened stays visible, s of real time at normal speed. */
 const LINGER = 0.45;
 
-export class WorldScreen {
+export class WorldScreen implements Screen {
   readonly view = new View();
   readonly scene: Scene;
   readonly overlay: Overlay;
@@ -102,7 +101,7 @@ export class WorldScreen {
     if (this.#loading) return;
     this.#loading = true;
     try {
-      const { Stage } = await loadStage();
+      const { Stage } = await import("./three/stage.ts");
       if (this.#disposed) return;
       const canvas = this.#lower();
       canvas.addEventListener("webglcontextlost", (event) => {

@@ -8,6 +8,7 @@ from starl._campaign import CampaignResults, Failure, test
 from starl._errors import Diagnostic, StarlError
 from starl._faults import Draws
 from starl._files import Program, Scenario, examples
+from starl._handle import RobotHandle
 from starl._primitives import (
     Barrier,
     Broadcast,
@@ -24,7 +25,7 @@ from starl._primitives import (
     Unicast,
 )
 from starl._properties import Fleet, Member, eventually, invariant
-from starl._robots import RobotHandle, RobotProgram
+from starl._robots import RobotProgram
 from starl._show import Viewer
 from starl._simulation import Robot, Simulation, Snapshot, Status
 from starl._sweep import SweepResults, sweep

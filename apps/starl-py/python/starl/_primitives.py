@@ -5,13 +5,11 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from starl import _native
 from starl._errors import StarlError
-
-if TYPE_CHECKING:
-    from starl._robots import RobotHandle
+from starl._handle import RobotHandle
 
 
 class Primitive:

@@ -1,22 +1,20 @@
 //! Actions with `atomic` in a program: tried on a copy, stored, and then performed; and the parts that wait meanwhile.
 //!
-//! Invariant: between the trial and the execution of an action no part runs that conflicts with it ([`Conflicts`]), so
+//! Invariant: between the trial and the execution of an action no part runs that conflicts with it ([`Conflicts`](super::atomic::Conflicts)), so
 //! that it takes the same path.
 
-use super::atomic::{Conflicts, Script, Step, Values};
-use super::code::Instance;
+use super::atomic::{Script, Step, Values};
 use super::failure::Failure;
 use super::host::{Context, RobotHost};
-use super::primitives::Report;
 use super::program::{Part, Phase, RobotProgram, Waiting};
+use super::reports::MOST_WAITING;
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine};
+use alloc::format;
+use alloc::string::ToString;
 use alloc::vec::Vec;
-use starl_core::{Message, Robot};
-
-/// At most so many messages and orders, and so many events of primitives, wait for an action with `atomic`; beyond that
-/// the oldest are dropped.
-const MOST_WAITING: usize = 1000;
+use starl_core::event::Level;
+use starl_core::{Message, Order, Robot};
 
 impl RobotProgram {
     /// Continues the waiting action with `atomic`, as far as possible now.
@@ -24,7 +22,7 @@ impl RobotProgram {
         let code = self.code.clone();
         while self.phase == Phase::Running
             && let Some(atomic) = &mut self.services.atomic
-            && let Some(step) = atomic.go_on(robot, &code)
+            && let Some(step) = atomic.go_on(robot, code.groups())
         {
             match step {
                 Step::Try(action, values) => {
@@ -44,7 +42,7 @@ impl RobotProgram {
                     }
                     self.run(robot, Part::Perform(action, script));
                     if let Some(atomic) = &mut self.services.atomic {
-                        atomic.release(robot, &code);
+                        atomic.release(robot, code.groups());
                     }
                 }
             }
@@ -62,7 +60,8 @@ impl RobotProgram {
         let code = &self.code;
         let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
         let mut services = self.services.clone();
-        if let (Some(atomic), Some(group)) = (&mut services.atomic, code.group(action)) {
+        if let (Some(atomic), Some(group)) = (&mut services.atomic, code.groups().of_action(action))
+        {
             atomic.open(group, values);
         }
         robot.rehearse(|robot| {
@@ -97,7 +96,7 @@ impl RobotProgram {
         let tried = tried?;
         match &mut self.services.atomic {
             Some(atomic) if self.phase == Phase::Running => atomic
-                .store(robot, &self.code, tried)
+                .store(robot, self.code.groups(), tried)
                 .map_err(Failure::NotStored),
             _ => Ok(()),
         }
@@ -105,7 +104,7 @@ impl RobotProgram {
 
     /// Whether a message must wait until an action with `atomic` has taken place.
     pub(super) fn must_wait(&self, message: &Message) -> bool {
-        if self.services.held(&self.code).is_none() {
+        if self.code.held(&self.services).is_none() {
             return false;
         }
         let program = self.code.program();
@@ -115,7 +114,7 @@ impl RobotProgram {
 
     /// Whether an event with these handlers must wait until an action with `atomic` has taken place.
     pub(super) fn holds(&self, handlers: &[u32]) -> bool {
-        self.services.held(&self.code).is_some_and(|held| {
+        self.code.held(&self.services).is_some_and(|held| {
             let mut handlers = handlers.iter();
             !self.waiting.is_empty() || handlers.any(|&handler| held.keeps_handler(handler))
         })
@@ -129,9 +128,29 @@ impl RobotProgram {
         }
     }
 
+    /// Runs the handlers of an order, unless they must wait for an action with `atomic`.
+    pub(super) fn follow(&mut self, robot: &mut Robot<'_>, order: &Order) {
+        if self.phase != Phase::Running {
+            return;
+        }
+        let code = self.code.clone();
+        match code.orders().decode(code.program(), order) {
+            Ok(Some(arrival)) if self.holds(arrival.handlers) => {
+                self.keep_waiting(Waiting::Order(order.clone()));
+            }
+            Ok(Some(arrival)) => self.run(robot, Part::Order(arrival)),
+            Ok(None) if order.name == Order::WAY_POINTS => {}
+            Ok(None) => {
+                let text = format!("order `{}` ignored: it has no handler", order.name);
+                robot.log(Level::Debug, text);
+            }
+            Err(wrong) => robot.log(Level::Warning, wrong.to_string()),
+        }
+    }
+
     /// Handles what had to wait, if it need not any longer.
     fn catch_up(&mut self, robot: &mut Robot<'_>) {
-        if self.services.held(&self.code).is_some() {
+        if self.code.held(&self.services).is_some() {
             return;
         }
         if !self.reports.is_empty() {
@@ -144,27 +163,4 @@ impl RobotProgram {
             }
         }
     }
-}
-
-/// Splits the reports of primitives: keeps those that can be handled now, and returns those that must wait until an
-/// action with `atomic` has taken place.
-pub(super) fn hold_back(
-    instances: &[Instance],
-    reports: &mut Vec<(u32, Report)>,
-    held: Option<&Conflicts>,
-) -> Vec<(u32, Report)> {
-    let Some(held) = held else {
-        return Vec::new();
-    };
-    let waits = |(instance, report): &(u32, Report)| {
-        let instance = instances.get(*instance as usize);
-        let handlers = instance.map_or(&[][..], |instance| &instance.handlers);
-        let mut handlers = handlers.iter();
-        handlers.any(|&(event, handler)| event == report.event && held.keeps_handler(handler))
-    };
-    let first = reports.iter().position(waits).unwrap_or(reports.len());
-    let mut later = reports.split_off(first);
-    let excess = later.len().saturating_sub(MOST_WAITING);
-    later.drain(..excess);
-    later
 }

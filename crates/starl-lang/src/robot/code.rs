@@ -1,14 +1,15 @@
 //! A program that robots can run: bytecode that was verified and joined to what robots offer.
 
-use super::atomic::{self, Conflicts, join_groups};
+use super::atomic::{self, Conflicts, Groups, join_groups};
+use super::defaults::defaults;
 use super::failure::Failure;
+use super::instance::Instance;
 use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::orders::Orders;
-use super::parameter;
-use super::primitives::{KINDS, Needs};
+use super::primitives::KINDS;
 use super::rest;
-use super::services::Services;
+use super::services::{self, Needs, Services};
 use super::shape::Declared;
 use super::stable::Stable;
 use super::stage::Stage;
@@ -19,6 +20,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use starl_core::Port;
 use starl_policy::Network;
 
 /// A program that robots can run. Copies share it.
@@ -29,6 +31,7 @@ struct Inner {
     program: Program,
     joints: Vec<Joint>,
     instances: Vec<Instance>,
+    groups: Groups,
     /// The conflicts of each action with `atomic`.
     conflicts: Vec<Option<Conflicts>>,
     /// See [`Code::is_steady`].
@@ -46,21 +49,6 @@ struct Inner {
     stage: Option<Stage>,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, Failure>,
-}
-
-/// A primitive that the program binds.
-#[derive(Clone, Debug)]
-pub struct Instance {
-    /// The name by which instances on different robots find each other.
-    pub name: String,
-    /// The name in the program.
-    pub variable: String,
-    /// Its kind, by its number in [`KINDS`].
-    pub kind: u16,
-    /// For each of the kind's events that is handled its number and the handler's.
-    pub handlers: Vec<(usize, u32)>,
-    /// The group of a linearizable variable, by the name of the first of it; else its own name.
-    pub group: String,
 }
 
 impl Code {
@@ -81,7 +69,7 @@ impl Code {
         })?;
         let networks = networks(program.bytecode())?;
         let stable = Stable::of(program.bytecode(), joiner.declared());
-        let initial = parameter::defaults(&program);
+        let initial = defaults(&program);
         let joints = joiner.finish();
         Ok(Code(Arc::new(Inner {
             initial: initial.map_err(|error| failure(&program, &error)),
@@ -89,6 +77,7 @@ impl Code {
             joints,
             services: Services::of(&program.bytecode().name, needs(&instances)),
             needs: needs(&instances),
+            groups: Groups::new(&program.bytecode().actions, &instances),
             conflicts: Conflicts::of(program.bytecode()),
             stage: Stage::of(program.bytecode()),
             program,
@@ -120,21 +109,14 @@ impl Code {
         &self.0.instances
     }
 
-    /// The group of variables that an action must have for itself; none if it needs none.
-    pub(super) fn group(&self, action: u32) -> Option<&str> {
-        let action = self.program().bytecode().actions.get(action as usize)?;
-        let instance = self.0.instances.get(*action.atomic.first()? as usize)?;
-        Some(&instance.group)
+    /// The groups of variables that actions must have for themselves.
+    pub(super) fn groups(&self) -> &Groups {
+        &self.0.groups
     }
 
-    /// All groups of variables that some action must have for itself.
-    pub(super) fn groups(&self) -> impl Iterator<Item = &str> {
-        let count = self.program().bytecode().actions.len() as u32;
-        (0..count).filter_map(|action| self.group(action))
-    }
-
-    /// The parts that wait while the writes of an action with `atomic` are stored.
-    pub(super) fn conflicts(&self, action: u32) -> Option<&Conflicts> {
+    /// The parts that wait while the writes of an action with `atomic` are being stored.
+    pub(super) fn held(&self, services: &Services) -> Option<&Conflicts> {
+        let action = services.atomic.as_ref()?.stores()?;
         self.0.conflicts.get(action as usize)?.as_ref()
     }
 
@@ -179,9 +161,10 @@ impl Code {
         &self.0.services
     }
 
-    /// The services that the program's primitives need.
-    pub(super) fn needs(&self) -> Needs {
-        self.0.needs
+    /// Where the program's failure detector listens, if it has one.
+    pub fn detector(&self) -> Option<Port> {
+        let name = &self.program().bytecode().name;
+        self.0.needs.detector.then(|| services::detector_port(name))
     }
 
     /// The messages that the program handles.

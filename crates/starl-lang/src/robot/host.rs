@@ -2,8 +2,9 @@
 
 use super::arguments::{Arguments, Called};
 use super::atomic::{self, Script};
-use super::code::{Code, Instance};
+use super::code::Code;
 use super::failure::Failure;
+use super::instance::Instance;
 use super::joint::OnRobot;
 use super::messages::Outgoing;
 use super::primitives::{BoundPrimitive, KINDS, Slot};
@@ -105,7 +106,9 @@ impl RobotHost<'_, '_> {
     /// Whether another primitive than this instance listens at the port.
     fn is_taken(&mut self, port: Port, instance: usize) -> bool {
         let mut others = self.bound.iter().enumerate();
-        self.context.services.listen_at(self.context.code, port)
+        self.context
+            .services
+            .listen_at(self.context.code.groups(), port)
             || others.any(|(other, slot)| {
                 let slot = slot.as_ref().filter(|_| other != instance);
                 slot.is_some_and(|slot| slot.port == Some(port))

@@ -4,14 +4,11 @@
 //! reason. Fields that the program does not name are ignored.
 
 use super::messages::Arrival;
-use super::program::{Part, Phase, RobotProgram, Waiting};
 use super::words::type_name;
 use crate::machine::{Bytecode, ObjectType, Origin, Program, Type, Value};
-use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
-use starl_core::event::Level;
-use starl_core::{self as core, Order, Robot};
+use starl_core::{self as core, Order};
 use thiserror::Error;
 
 /// An input that the program handles.
@@ -105,28 +102,6 @@ impl Orders {
             scalars,
             objects,
         }))
-    }
-}
-
-impl RobotProgram {
-    /// Runs the handlers of an order, unless they must wait for an action with `atomic`.
-    pub(super) fn follow(&mut self, robot: &mut Robot<'_>, order: &Order) {
-        if self.phase != Phase::Running {
-            return;
-        }
-        let code = self.code.clone();
-        match code.orders().decode(code.program(), order) {
-            Ok(Some(arrival)) if self.holds(arrival.handlers) => {
-                self.keep_waiting(Waiting::Order(order.clone()));
-            }
-            Ok(Some(arrival)) => self.run(robot, Part::Order(arrival)),
-            Ok(None) if order.name == Order::WAY_POINTS => {}
-            Ok(None) => {
-                let text = format!("order `{}` ignored: it has no handler", order.name);
-                robot.log(Level::Debug, text);
-            }
-            Err(wrong) => robot.log(Level::Warning, wrong.to_string()),
-        }
     }
 }
 

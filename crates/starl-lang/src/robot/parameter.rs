@@ -3,10 +3,7 @@
 use super::code::Code;
 use super::failure::Failure;
 use super::words::type_name;
-use crate::machine::{
-    Host, HostCall, Limits, Machine, Parameter, Program, RuntimeError, State, Value, Variable,
-    Workspace,
-};
+use crate::machine::{Parameter, State, Value, Variable};
 use alloc::string::String;
 use alloc::vec::Vec;
 use thiserror::Error;
@@ -55,15 +52,6 @@ pub enum ParameterError {
     Default(Failure),
 }
 
-/// A state with the defaults of the parameters.
-pub(super) fn defaults(program: &Program) -> Result<State, RuntimeError> {
-    let mut state = program.new_state();
-    let mut workspace = Workspace::new();
-    let limits = Limits::default();
-    Machine::new(program, &mut state, &mut workspace, &mut Nobody, limits).defaults()?;
-    Ok(state)
-}
-
 /// A state with these values of the parameters, and the defaults of others.
 pub(super) fn state(code: &Code, given: &[(&str, Value)]) -> Result<State, ParameterError> {
     let program = code.program();
@@ -107,13 +95,4 @@ pub(super) fn state(code: &Code, given: &[(&str, Value)]) -> Result<State, Param
         }
     }
     Ok(state)
-}
-
-/// The host of what needs no robot.
-struct Nobody;
-
-impl Host for Nobody {
-    fn call(&mut self, _: u32, _: &mut HostCall<'_>) -> super::arguments::Called {
-        Err("a default cannot depend on the robot".into())
-    }
 }

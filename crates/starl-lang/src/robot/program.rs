@@ -1,8 +1,7 @@
 //! The program of one robot: its variables and its primitives, run by the machine.
 
-use super::acting::hold_back;
 use super::atomic::{Conflicts, Script, Turn};
-use super::code::{Code, Instance};
+use super::code::Code;
 use super::corruption;
 use super::failure::Failure;
 use super::host::{Context, RobotHost};
@@ -10,6 +9,7 @@ use super::messages::Arrival;
 use super::pace::Pace;
 use super::parameter::{self, ParameterError};
 use super::primitives::{Attended, Report, Slot};
+use super::reports::{handle_reports, hold_back};
 use super::rest::Disturbing;
 use super::services::Services;
 use super::stable::Kept;
@@ -140,7 +140,7 @@ impl RobotProgram {
         }
         let code = &self.code;
         let (paces, now) = (&mut self.paces, robot.now());
-        let held = self.services.held(code);
+        let held = code.held(&self.services);
         let mut reports = mem::take(&mut self.reports);
         self.reports = hold_back(code.instances(), &mut reports, held);
         let mut bench = robot.take_scratch::<Workbench>();
@@ -196,7 +196,7 @@ impl RobotProgram {
         self.phase = Phase::Failed;
         // Others need not wait for it.
         if let Some(atomic) = &mut self.services.atomic {
-            atomic.release(robot, &self.code);
+            atomic.release(robot, self.code.groups());
         }
     }
 }
@@ -251,7 +251,7 @@ impl Part<'_> {
                 let actions = (0..).zip(&program.bytecode().actions).zip(paces);
                 let mut actions = actions.skip(code.checks() as usize);
                 actions.try_for_each(|((number, action), pace)| {
-                    if code.group(number).is_some() {
+                    if code.groups().of_action(number).is_some() {
                         if turn.asks(number) {
                             turn.note(number, pace.is_due(action, number, now, machine)?);
                         }
@@ -300,23 +300,6 @@ impl Arrival<'_> {
     }
 }
 
-/// Runs the handlers of what primitives have reported, in the order in which it happened.
-fn handle_reports(
-    instances: &[Instance],
-    reports: &[(u32, Report)],
-    machine: &mut Machine<'_>,
-) -> Result<(), RuntimeError> {
-    for (instance, report) in reports {
-        let handlers = instances
-            .get(*instance as usize)
-            .map_or(&[][..], |instance| &instance.handlers);
-        for (_, handler) in handlers.iter().filter(|(event, _)| *event == report.event) {
-            machine.handler(*handler, &report.scalars, &report.objects)?;
-        }
-    }
-    Ok(())
-}
-
 /// Not derived: which primitives a program holds its code says, and their events are passed to the program.
 impl Primitives for RobotProgram {
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
@@ -334,9 +317,10 @@ impl Primitives for RobotProgram {
             });
         }
         let rests = &mut self.rests;
-        self.services.primitives(&self.code, &mut |primitive| {
-            visit(&mut Disturbing { primitive, rests });
-        });
+        self.services
+            .primitives(self.code.groups(), &mut |primitive| {
+                visit(&mut Disturbing { primitive, rests });
+            });
     }
 }
 
@@ -351,11 +335,11 @@ impl Program for RobotProgram {
         self.rests = false;
         self.target = None;
         self.paces.fill(Pace::default());
-        self.services = Services::start(&self.code, robot);
+        self.services = self.code.services().started(self.code.groups(), robot);
         self.run(robot, Part::Start);
         // After a start that failed, variables may be without their values.
         if self.phase == Phase::Running && self.kept.is_none() {
-            self.kept = Kept::at_start(&self.code, robot).map(Box::new);
+            self.kept = Kept::at_start(self.code.stable(), robot).map(Box::new);
         }
     }
 
@@ -367,14 +351,14 @@ impl Program for RobotProgram {
         }
         let mut turn = Turn::default();
         if let Some(atomic) = &mut self.services.atomic {
-            turn = atomic.turn(robot, &self.code);
+            turn = atomic.turn(robot, self.code.groups());
         }
         self.run(robot, Part::Actions(&mut turn));
         debug_assert!(!rests || self.rests, "an action is enabled without cause");
         if let Some(atomic) = &mut self.services.atomic
             && self.phase == Phase::Running
         {
-            atomic.take_turn(robot, &self.code, turn);
+            atomic.take_turn(robot, self.code.groups(), turn);
         }
         self.go_on(robot);
     }
@@ -403,7 +387,8 @@ impl Program for RobotProgram {
 
     fn save(&mut self, robot: &mut Robot<'_>) {
         if let Some(kept) = &mut self.kept {
-            kept.save(&self.code, &self.state, self.version, robot);
+            let values = (self.code.program(), &self.state);
+            kept.save(self.code.stable(), values, self.version, robot);
         }
     }
 
@@ -424,7 +409,7 @@ impl Program for RobotProgram {
                 pace.corrupt(random);
             }
         }
-        self.services.corrupt(&self.code, random);
+        self.services.corrupt(self.code.groups(), random);
     }
 
     fn write_state(&self, text: &mut dyn fmt::Write) -> bool {

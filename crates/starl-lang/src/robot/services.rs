@@ -1,14 +1,41 @@
 //! The services that the primitives of a program share: the storage of its shared variables, and the failure detector.
 //! A program has the services that its primitives need.
 
-use super::atomic::{Atomic, Conflicts};
-use super::code::Code;
-use super::primitives::Needs;
+use super::atomic::{Atomic, Groups};
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use starl_core::{Input, Port, Primitive, Random, Robot};
 use starl_primitives::{FailureDetector, SharedMemory, failure_detector, shared_memory};
+
+/// The services that a kind of primitive needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needs {
+    /// The memory that shared variables lie in.
+    pub memory: bool,
+    /// The detector of failed robots.
+    pub detector: bool,
+    /// The services of actions with `atomic`.
+    pub atomic: bool,
+}
+
+impl Needs {
+    /// Nothing.
+    pub const NOTHING: Needs = Needs {
+        memory: false,
+        detector: false,
+        atomic: false,
+    };
+
+    /// The needs of either.
+    pub fn or(self, other: Needs) -> Needs {
+        Needs {
+            memory: self.memory || other.memory,
+            detector: self.detector || other.detector,
+            atomic: self.atomic || other.atomic,
+        }
+    }
+}
 
 /// The common parts of one robot's program. Before its start it has none.
 #[derive(Clone, Debug, Default)]
@@ -45,34 +72,29 @@ impl Services {
         }
     }
 
-    /// The services of a program, started.
-    pub fn start(code: &Code, robot: &mut Robot<'_>) -> Services {
-        let mut services = code.services().clone();
-        services.primitives(code, &mut |primitive| {
+    /// A copy of these, started.
+    pub fn started(&self, groups: &Groups, robot: &mut Robot<'_>) -> Services {
+        let mut services = self.clone();
+        services.primitives(groups, &mut |primitive| {
             primitive.handle(robot, &Input::Start)
         });
         services
     }
 
     /// Whether one of them listens at the port.
-    pub fn listen_at(&mut self, code: &Code, port: Port) -> bool {
+    pub fn listen_at(&mut self, groups: &Groups, port: Port) -> bool {
         let mut found = false;
-        self.primitives(code, &mut |primitive| found |= primitive.port() == port);
+        self.primitives(groups, &mut |primitive| found |= primitive.port() == port);
         found
     }
 
-    /// The operations that must wait while the writes of an action with `atomic` are being stored.
-    pub fn held<'c>(&self, code: &'c Code) -> Option<&'c Conflicts> {
-        code.conflicts(self.atomic.as_ref()?.stores()?)
-    }
-
     /// Shows each to `visit`, always in the same order.
-    pub fn primitives(&mut self, code: &Code, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+    pub fn primitives(&mut self, groups: &Groups, visit: &mut dyn FnMut(&mut dyn Primitive)) {
         if let Some(memory) = &mut self.memory {
             visit(&mut **memory);
         }
         if let Some(atomic) = &mut self.atomic {
-            atomic.primitives(code, visit);
+            atomic.primitives(groups, visit);
         }
         if let Some(detector) = &mut self.detector {
             visit(&mut **detector);
@@ -80,12 +102,12 @@ impl Services {
     }
 
     /// Overwrites their states at random.
-    pub fn corrupt(&mut self, code: &Code, random: &mut Random) {
+    pub fn corrupt(&mut self, groups: &Groups, random: &mut Random) {
         if let Some(memory) = &mut self.memory {
             memory.corrupt(random);
         }
         if let Some(atomic) = &mut self.atomic {
-            atomic.corrupt(code, random);
+            atomic.corrupt(groups, random);
         }
         if let Some(detector) = &mut self.detector {
             detector.corrupt(random);
@@ -93,16 +115,12 @@ impl Services {
     }
 }
 
+/// Where the failure detector of the program of this name listens.
+pub fn detector_port(program: &str) -> Port {
+    Port::named(&detector_name(program))
+}
+
 /// The name of a program's detector.
 fn detector_name(program: &str) -> String {
     format!("{program}/failures")
-}
-
-impl Code {
-    /// Where the program's failure detector listens, if it has one.
-    pub fn detector(&self) -> Option<Port> {
-        let program = &self.program().bytecode().name;
-        let has_one = self.needs().detector;
-        has_one.then(|| Port::named(&detector_name(program)))
-    }
 }

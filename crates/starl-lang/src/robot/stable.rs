@@ -4,10 +4,9 @@
 //! A saved value begins with a tag, a hash of the variable's name and type. So a value saved by another version of the
 //! program with another type is not used.
 
-use super::code::Code;
 use super::messages::tag;
 use super::shape::Declared;
-use crate::machine::{Bytecode, State, Variable};
+use crate::machine::{Bytecode, Program, State, Variable};
 use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::{Digest, Payload, Port, Robot, Saved};
@@ -44,10 +43,9 @@ impl Stable {
     }
 }
 
-/// The saved value of the variable with this number, without its tag; none if there is none of its type.
-pub fn saved<'s>(code: &Code, saved: &'s Saved, variable: usize) -> Option<&'s [u8]> {
-    let mut all = code.stable().iter();
-    let stable = all.find(|stable| stable.variable == variable)?;
+/// The saved value of the variable with this number among the stable ones, without its tag; none if there is none of its type.
+pub fn saved<'s>(all: &[Stable], saved: &'s Saved, variable: usize) -> Option<&'s [u8]> {
+    let stable = all.iter().find(|stable| stable.variable == variable)?;
     stable.find(saved)?.strip_prefix(&stable.tag)
 }
 
@@ -62,8 +60,8 @@ pub struct Kept {
 
 impl Kept {
     /// The stored variables when the program has started; none if there is nothing to save.
-    pub fn at_start(code: &Code, robot: &Robot<'_>) -> Option<Kept> {
-        let (saved, stable) = (robot.saved()?, code.stable());
+    pub fn at_start(stable: &[Stable], robot: &Robot<'_>) -> Option<Kept> {
+        let saved = robot.saved()?;
         (!stable.is_empty()).then(|| Kept {
             version: 0,
             digests: stable.iter().map(|s| s.find(saved).map(digest)).collect(),
@@ -71,12 +69,18 @@ impl Kept {
     }
 
     /// Saves the variables that have changed since the last save.
-    pub fn save(&mut self, code: &Code, state: &State, version: u64, robot: &mut Robot<'_>) {
+    pub fn save(
+        &mut self,
+        stable: &[Stable],
+        (program, state): (&Program, &State),
+        version: u64,
+        robot: &mut Robot<'_>,
+    ) {
         if core::mem::replace(&mut self.version, version) == version {
             return;
         }
-        let values = code.program().encode_stable(state);
-        for ((stable, value), kept) in code.stable().iter().zip(values).zip(&mut self.digests) {
+        let values = program.encode_stable(state);
+        for ((stable, value), kept) in stable.iter().zip(values).zip(&mut self.digests) {
             let mut bytes = Payload::from_slice(&stable.tag);
             bytes.extend_from_slice(&value);
             let digest = Some(digest(&bytes));

@@ -7,7 +7,6 @@
 use super::cell::Cell;
 use super::pace::Pace;
 use super::plane::{larger, smaller, turned};
-use super::surroundings::Surroundings;
 use crate::Model;
 use crate::tracking::{Goal, Tracking};
 use smallvec::SmallVec;
@@ -102,12 +101,13 @@ impl Drive {
     /// `velocity` and its tracker is given `goal`.
     pub fn speed_limit(
         self,
-        around: &Surroundings,
+        driven: &Driven,
+        pace: &Pace,
+        estimate: &Estimate,
         cell: &Cell,
         velocity: Point,
         goal: &Goal,
     ) -> f64 {
-        let estimate = around.estimate;
         let ahead = velocity.normalized().unwrap_or(Point::ZERO);
         match self {
             // Where the robot is too near on two sides, the velocity is the best that can be had.
@@ -123,7 +123,7 @@ impl Drive {
                 slowest(cell, &[ahead, course, between], GRAZING)
             }
             Drive::Car => {
-                let directions = car_directions(around, goal);
+                let directions = car_directions(driven, pace, estimate, goal);
                 slowest(cell, &directions, 0.0)
             }
         }
@@ -151,13 +151,12 @@ fn slowest(cell: &Cell, directions: &[Point], grazing: f64) -> f64 {
 /// Where a car may go before the next estimate. It continues along its course whatever its command is, or swings off it
 /// to either side while it brakes. From a standstill it goes forwards or backwards as its tracker chooses, and its centre,
 /// which is ahead of the axle that does not steer, slips to the side that it steers to.
-fn car_directions(around: &Surroundings, goal: &Goal) -> SmallVec<[Point; 4]> {
-    let Surroundings {
-        body,
-        pace,
-        estimate,
-        ..
-    } = *around;
+fn car_directions(
+    driven: &Driven,
+    pace: &Pace,
+    estimate: &Estimate,
+    goal: &Goal,
+) -> SmallVec<[Point; 4]> {
     let velocity = estimate.twist.linear.at_height(0.0);
     let speed = velocity.planar_length();
     let both_sides = |course: Point, angle: f64| [turned(course, angle), turned(course, -angle)];
@@ -171,8 +170,8 @@ fn car_directions(around: &Surroundings, goal: &Goal) -> SmallVec<[Point; 4]> {
     }
     let heading = heading(estimate);
     // That axle is inside the body.
-    let slip = math::asin(smaller(body.radius / pace.turn_radius, 1.0));
-    let gear = around.driven.gear(estimate, goal);
+    let slip = math::asin(smaller(driven.model.body().radius / pace.turn_radius, 1.0));
+    let gear = driven.gear(estimate, goal);
     let mut directions = SmallVec::new();
     if gear != Some(Gear::Backwards) {
         directions.extend(both_sides(heading, slip));

@@ -118,8 +118,6 @@ impl Avoidance {
         let around = Surroundings {
             body,
             pace,
-            drive: Drive::of(model),
-            driven,
             estimate,
             neighbours: &neighbours,
             obstacles,
@@ -128,12 +126,13 @@ impl Avoidance {
             period: self.period,
             braking_way: model.braking_way(estimate),
         };
-        self.guide_among(&around, goal, elapsed, random)
+        self.guide_among(&driven, &around, goal, elapsed, random)
     }
 
     /// [`Avoidance::guide`] among neighbours at the same height.
     fn guide_among(
         &mut self,
+        driven: &Driven,
         around: &Surroundings,
         goal: &Goal,
         elapsed: f64,
@@ -142,11 +141,11 @@ impl Avoidance {
         let Surroundings {
             body,
             pace,
-            drive,
             estimate,
             neighbours,
             ..
         } = *around;
+        let drive = Drive::of(driven.model);
         let cell = around.cell();
         if neighbours.is_empty() && cell.is_empty() && self.yielding.on_course(goal.target) {
             self.yielding.unhindered();
@@ -178,7 +177,7 @@ impl Avoidance {
             true => *goal,
             false => off_course(velocity.planar_length()),
         };
-        let limit = drive.speed_limit(around, &cell, velocity, &tracked);
+        let limit = drive.speed_limit(driven, pace, estimate, &cell, velocity, &tracked);
         let scene = Scene {
             body,
             pace,

@@ -7,7 +7,6 @@
 //! robot's own.
 
 use super::cell::{Border, Cell};
-use super::drive::{Drive, Driven};
 use super::pace::Pace;
 use super::plane::{between_segments, least_on_segment};
 use crate::Neighbour;
@@ -33,8 +32,6 @@ const ROUNDING: f64 = 1e-6;
 pub(super) struct Surroundings<'a> {
     pub body: &'a Body,
     pub pace: &'a Pace,
-    pub drive: Drive,
-    pub driven: Driven<'a>,
     pub estimate: &'a Estimate,
     /// Robots at the same height.
     pub neighbours: &'a [Neighbour],

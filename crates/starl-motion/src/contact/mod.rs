@@ -6,15 +6,13 @@
 //! in a discrete-event simulation of hard spheres (Alder and Wainwright 1959), so that no body is stopped by one that
 //! had stopped elsewhere before.
 
-mod grid;
 mod impact;
 mod parts;
 
-pub use grid::{Entry, Grid};
 pub use parts::{Parts, bend};
 
 use crate::Impact;
-use crate::proximity::Scene;
+use crate::scene::{Entry, Scene};
 use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;

@@ -7,8 +7,7 @@ use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
 use starl_core::{Command, Point, Program, RobotId, Time, WayPoint, math};
 use starl_host::Hardware;
-use starl_motion::contact::Grid;
-use starl_motion::proximity::Scene;
+use starl_motion::scene::{Grid, Scene};
 use starl_motion::{Disturbance, Model, Neighbour};
 use std::sync::Arc;
 

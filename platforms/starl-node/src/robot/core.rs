@@ -1,7 +1,8 @@
 //! The robot without clock, threads, sockets and files.
 
+use super::equipment::Equipment;
+use super::mailbox::Incoming;
 use super::watch::Watched;
-use super::{Equipment, Incoming, Recorder, Setup};
 use crate::Reading;
 use crate::discovery::Discovery;
 use crate::link::Channel;
@@ -9,7 +10,9 @@ use crate::link::quality::Quality;
 use crate::localise::Localiser;
 use crate::motors::Report;
 use crate::outlet::RuntimeOutlet;
+use crate::recorder::Recorder;
 use crate::safety::Hazard;
+use crate::setup::Setup;
 use crate::surroundings::Surroundings;
 use crate::writer::Written;
 use starl_core::sensor::Contact;

@@ -6,88 +6,33 @@
 
 mod core;
 mod equipment;
+mod mailbox;
 mod network;
 mod watch;
 
 pub use self::core::Core;
+pub use crate::recorder::Recorder;
+pub use crate::setup::{MapObstacle, Setup, Thing};
 pub use equipment::Equipment;
+pub use mailbox::{Incoming, Post, mailbox};
 pub use network::longest_silence;
 
-use crate::link::{Arrival, Channel, Transport};
-use crate::localise::Accuracy;
-use crate::motors::{Motors, PositionSource, Report};
+use crate::link::{Channel, Transport};
+use crate::motors::{Motors, PositionSource};
 use crate::planner::Planner;
-use crate::safety::Safety;
-use crate::writer::{StorageWriter, Written};
+use crate::writer::StorageWriter;
 use crate::{Device, Storage, WallClock};
 use equipment::Attached;
-use starl_core::event::Name;
-use starl_core::motion::{Body, Path};
-use starl_core::{
-    Duration, Event, Obstacle, Point, Pose, Program, Random, RobotId, Time, WayPoint,
-};
-use starl_host::{Hardware, Observed};
-use starl_motion::sensing::SensorSuite;
+use starl_core::Duration;
 use std::io;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 
 /// The longest that the loop waits.
 const LONGEST_WAIT: Duration = Duration::from_millis(20);
 
 /// The loop takes at most so many things at once, so that timers are not kept waiting.
 const MOST_AT_ONCE: usize = 64;
-
-/// An obstacle of the scenario.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MapObstacle {
-    /// Its shape and place.
-    pub obstacle: Obstacle,
-    /// Robots have to discover it.
-    pub hidden: bool,
-    /// It disappears at this time.
-    pub expires: Time,
-}
-
-/// A thing that detectors see, where it lies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Thing {
-    /// Its name.
-    pub name: Name,
-    /// Where it is, metres.
-    pub position: Point,
-}
-
-/// The configuration of a robot.
-pub struct Setup {
-    /// Its number.
-    pub id: RobotId,
-    /// The bodies of all robots, by number.
-    pub bodies: Vec<Body>,
-    /// The software that it runs.
-    pub program: Box<dyn Program>,
-    /// The stream that its software draws from.
-    pub random: Random,
-    /// Its hardware.
-    pub hardware: Hardware,
-    /// The sensors that its program may read. A bumper is the device's; the others are measured among the places of the
-    /// other robots and the known obstacles.
-    pub sensors: SensorSuite,
-    /// The things that a detector sees.
-    pub things: Vec<Thing>,
-    /// The application's waypoints.
-    pub way_points: Vec<WayPoint>,
-    /// The obstacles of the scenario.
-    pub obstacles: Vec<MapObstacle>,
-    /// The period of its position estimates.
-    pub positioning_period: Duration,
-    /// How exact its odometry and its positions are.
-    pub accuracy: Accuracy,
-    /// Its position at the start, if known.
-    pub start: Option<Pose>,
-    /// When its motors are stopped.
-    pub safety: Safety,
-}
 
 /// The connections of a robot.
 pub struct Connections {
@@ -101,54 +46,6 @@ pub struct Connections {
     pub transport: Box<dyn Transport>,
     /// The encryption of its packets.
     pub channel: Channel,
-}
-
-/// An input from another thread.
-#[derive(Debug)]
-pub enum Incoming {
-    /// A packet.
-    Packet(Arrival),
-    /// From the device's thread.
-    Device(Report),
-    /// A path was found, or none.
-    Planned(u32, Option<Path>),
-    /// From the storage's thread.
-    Written(Written),
-    /// The robot must stop and end.
-    Halt,
-}
-
-/// The sender of inputs for other threads.
-pub type Post = Sender<Incoming>;
-
-/// A new mailbox: one end for [`Robot::start`], one for other threads.
-pub fn mailbox() -> (Post, Receiver<Incoming>) {
-    mpsc::channel()
-}
-
-/// Takes down what happens.
-pub trait Recorder {
-    /// Something happened on this robot.
-    fn record(&mut self, at: Time, event: Event);
-
-    /// Something was done to its software.
-    fn observe(&mut self, at: Time, observed: Observed<'_>);
-
-    /// All events until now have been recorded.
-    fn advance(&mut self, now: Time);
-
-    /// Everything that was recorded must survive the process from now on: something is about to leave the robot that
-    /// shows it.
-    fn commit(&mut self) {}
-
-    /// The person in front of the robot should know this.
-    fn notice(&mut self, at: Time, text: &str);
-
-    /// The state of the program in a word, if it has one.
-    fn state(&self, program: &dyn Program) -> Option<String> {
-        let _ = program;
-        None
-    }
 }
 
 /// A running robot.

@@ -1,11 +1,12 @@
 //! The robot's end of the link: what it hears from others and tells them.
 
-use super::core::{BEACON_PERIOD, Peer};
-use super::{Core, Equipment, Recorder};
+use super::core::{BEACON_PERIOD, Core, Peer};
+use super::equipment::Equipment;
 use crate::link::beacon::Beacon;
 use crate::link::channel::{self, Opened};
 use crate::link::frame::{Frame, Seen, Status};
 use crate::link::{Arrival, Member, OPERATORS};
+use crate::recorder::Recorder;
 use starl_core::event::DropReason;
 use starl_core::{Destination, Duration, Event, Message, RobotId};
 use starl_host::{Datagram, NodeInput};

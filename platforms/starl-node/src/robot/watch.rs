@@ -1,8 +1,8 @@
 //! Live observation of a robot by operators.
 
-use super::Recorder;
 use crate::link::Member;
 use crate::link::frame::Seen;
+use crate::recorder::Recorder;
 use starl_core::event::Level;
 use starl_core::{Duration, Event, Program, Time};
 use starl_host::Observed;

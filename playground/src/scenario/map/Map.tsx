@@ -3,7 +3,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { content, edit } from "../document.ts";
-import { nextName } from "../Elements.tsx";
+import { nextName } from "../element.ts";
 import { tablesOf } from "../table.ts";
 import { backdrop, keepLooking } from "./backdrop.ts";
 import {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from starl._errors import StarlError
-from starl.env._world import World
+from starl.env._world import COMPUTED, World, quantity
 
 Numbers = NDArray[Any]
 
@@ -48,7 +47,7 @@ def _part(world: World, name: str) -> Part:
             return _way(world.positions, _point(world, name, point))
         case [start, "to", end]:
             return _way(_point(world, name, start), _point(world, name, end))
-        case ["every", own] if own not in _COMPUTED:
+        case ["every", own] if own not in COMPUTED:
             each = quantity(world, own)
             width = each.shape[2] * robots
             return Part(width, lambda out: _copy(out, each.reshape(environments, 1, width)))
@@ -64,10 +63,6 @@ def _part(world: World, name: str) -> Part:
     raise StarlError(
         f'observe: `{name}` is not a name of a quantity, "to POINT", "POINT to POINT", "every NAME" or "to every POINT"'
     )
-
-
-#: Quantities that are computed from the arrays of the world.
-_COMPUTED = ("heading", "touched", "heard")
 
 
 def _copy(out: Numbers, values: Numbers) -> None:
@@ -88,24 +83,6 @@ def _point(world: World, name: str, point: str) -> Numbers:
     if found.shape[2] != 2:
         raise StarlError(f"observe: `{name}`: `{point}` is no point in the plane")
     return found
-
-
-def quantity(world: World, name: str, part: str = "observe") -> Numbers:
-    """The array (E, N, k) that holds a quantity."""
-    given: dict[str, Numbers] = {
-        "position": world.positions,
-        "altitude": world.poses[..., 2:3],
-        "velocity": world.velocities[..., :2],
-        "turn_rate": world.velocities[..., 3:4],
-        "lidar": world.lidar,
-        **world.quantities,
-    }
-    if name not in given:
-        names = [*given, *_COMPUTED]
-        close = difflib.get_close_matches(name, names, 1)
-        hint = f"; did you mean `{close[0]}`?" if close else f"; use one of {', '.join(names)}"
-        raise StarlError(f"{part}: there is no quantity `{name}`{hint}")
-    return given[name]
 
 
 def _heard(world: World) -> Numbers:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -14,6 +15,9 @@ from starl.env._settings import Box, Circle, Settings, Waypoints
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+#: Quantities that observations compute from the arrays of the world.
+COMPUTED = ("heading", "touched", "heard")
 
 
 class World:
@@ -83,8 +87,6 @@ class World:
     def mean(self, name: str, *, where: str, least: str | float = 1) -> Floats:
         """The mean of a quantity over the robots of each environment of which a Bool is true: (E, 1, k). It is 0 where
         there are fewer than `least` of them, a number or the name of a value."""
-        from starl.env._quantities import quantity
-
         chosen = quantity(self, where, "where")
         needed = quantity(self, least, "least")[:, :1] if isinstance(least, str) else least
         count = chosen.sum(axis=1, keepdims=True)
@@ -178,6 +180,24 @@ class World:
 
     def __repr__(self) -> str:
         return f"<starl.env.World of {self.environments} environments with {self.robots} robots>"
+
+
+def quantity(world: World, name: str, part: str = "observe") -> Floats:
+    """The array (E, N, k) that holds a quantity."""
+    given: dict[str, Floats] = {
+        "position": world.positions,
+        "altitude": world.poses[..., 2:3],
+        "velocity": world.velocities[..., :2],
+        "turn_rate": world.velocities[..., 3:4],
+        "lidar": world.lidar,
+        **world.quantities,
+    }
+    if name not in given:
+        names = [*given, *COMPUTED]
+        close = difflib.get_close_matches(name, names, 1)
+        hint = f"; did you mean `{close[0]}`?" if close else f"; use one of {', '.join(names)}"
+        raise StarlError(f"{part}: there is no quantity `{name}`{hint}")
+    return given[name]
 
 
 def _corner(numbers: Sequence[float]) -> tuple[float, float, float]:

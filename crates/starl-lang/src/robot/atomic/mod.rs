@@ -21,11 +21,10 @@ mod script;
 mod turn;
 
 pub use footprint::Conflicts;
-pub use groups::join_groups;
+pub use groups::{Groups, join_groups};
 pub use script::Script;
 pub use turn::Turn;
 
-use super::code::Code;
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -146,8 +145,8 @@ impl Atomic {
     }
 
     /// Begins a pass over all actions.
-    pub fn turn(&mut self, robot: &mut Robot<'_>, code: &Code) -> Turn {
-        self.set_right(robot, code);
+    pub fn turn(&mut self, robot: &mut Robot<'_>, groups: &Groups) -> Turn {
+        self.set_right(robot, groups);
         Turn {
             is_idle: self.stage == Stage::Idle,
             last: self.last,
@@ -160,27 +159,27 @@ impl Atomic {
     }
 
     /// Ends a pass: begins an action, or gives up one whose guard no longer holds.
-    pub fn take_turn(&mut self, robot: &mut Robot<'_>, code: &Code, turn: Turn) {
+    pub fn take_turn(&mut self, robot: &mut Robot<'_>, groups: &Groups, turn: Turn) {
         match self.stage {
             Stage::Idle => {
                 if let Some(action) = turn.next {
                     self.stage = Stage::Locking(action);
-                    self.lock(robot, code, action);
+                    self.lock(robot, groups, action);
                 }
             }
             Stage::Locking(action) | Stage::Claiming(action, _) if turn.waiting != Some(action) => {
                 self.last = Some(action);
-                self.release(robot, code);
+                self.release(robot, groups);
             }
             _ => {}
         }
     }
 
     /// Whether the robot need not wait any longer.
-    fn is_ready(&self, code: &Code) -> bool {
+    fn is_ready(&self, groups: &Groups) -> bool {
         match self.stage {
             Stage::Idle => false,
-            Stage::Locking(action) => self.mutex.holds(&lock(code, action)),
+            Stage::Locking(action) => self.mutex.holds(&lock(groups, action)),
             Stage::Claiming(_, operation) | Stage::Storing(_, operation) => {
                 let status = self.register.status(operation);
                 !matches!(status, Status::Pending | Status::NoQuorum)
@@ -189,17 +188,17 @@ impl Atomic {
     }
 
     /// Continues as far as possible without waiting, or without the program.
-    pub fn go_on(&mut self, robot: &mut Robot<'_>, code: &Code) -> Option<Step> {
-        while self.is_ready(code) {
+    pub fn go_on(&mut self, robot: &mut Robot<'_>, groups: &Groups) -> Option<Step> {
+        while self.is_ready(groups) {
             match self.stage {
                 Stage::Idle => return None,
                 Stage::Locking(action) => {
-                    let claim = self.register.claim(robot, code.group(action)?).ok()?;
+                    let claim = self.register.claim(robot, groups.of_action(action)?).ok()?;
                     self.stage = Stage::Claiming(action, claim);
                 }
                 Stage::Claiming(action, claim) => {
                     let Status::Done(value) = self.register.status(claim) else {
-                        self.release(robot, code);
+                        self.release(robot, groups);
                         continue;
                     };
                     self.register.withdraw(robot, claim);
@@ -215,7 +214,7 @@ impl Atomic {
                         }
                         Status::Lost => self.stage = Stage::Locking(action),
                         // Only a corruption leads here.
-                        _ => self.release(robot, code),
+                        _ => self.release(robot, groups),
                     }
                 }
             }
@@ -230,15 +229,15 @@ impl Atomic {
     pub fn store(
         &mut self,
         robot: &mut Robot<'_>,
-        code: &Code,
+        groups: &Groups,
         tried: Option<(Values, Script)>,
     ) -> Result<(), OperationError> {
         let Stage::Claiming(action, _) = self.stage else {
             return Ok(());
         };
         self.last = Some(action);
-        let (Some((values, script)), Some(group)) = (tried, code.group(action)) else {
-            self.release(robot, code);
+        let (Some((values, script)), Some(group)) = (tried, groups.of_action(action)) else {
+            self.release(robot, groups);
             return Ok(());
         };
         let value = message::encode(&values);
@@ -251,52 +250,52 @@ impl Atomic {
                 return Err(error);
             }
             // Only a corruption can have taken away the claim.
-            Err(_) => self.release(robot, code),
+            Err(_) => self.release(robot, groups),
         }
         Ok(())
     }
 
     /// Gives up the action that the robot waits for, and releases its lock.
-    pub fn release(&mut self, robot: &mut Robot<'_>, code: &Code) {
+    pub fn release(&mut self, robot: &mut Robot<'_>, groups: &Groups) {
         if let Stage::Claiming(_, operation) | Stage::Storing(_, operation) = self.stage {
             self.register.withdraw(robot, operation);
         }
         self.script = Script::None;
         self.stage = Stage::Idle;
         if self.mutex.crit() || self.mutex.is_waiting() {
-            self.mutex.release(robot, &all_locks(code));
+            self.mutex.release(robot, &all_locks(groups));
         }
     }
 
-    fn lock(&mut self, robot: &mut Robot<'_>, code: &Code, action: u32) {
-        if self.mutex.acquire(robot, lock(code, action)).is_err() {
+    fn lock(&mut self, robot: &mut Robot<'_>, groups: &Groups, action: u32) {
+        if self.mutex.acquire(robot, lock(groups, action)).is_err() {
             // Only a corruption can have left it with others.
-            self.mutex.release(robot, &all_locks(code));
+            self.mutex.release(robot, &all_locks(groups));
         }
     }
 
     /// Requests a lock again that has ended meanwhile, and repairs states that only a corruption leaves behind.
-    fn set_right(&mut self, robot: &mut Robot<'_>, code: &Code) {
+    fn set_right(&mut self, robot: &mut Robot<'_>, groups: &Groups) {
         match self.stage {
             Stage::Idle if self.mutex.crit() || self.mutex.is_waiting() => {
-                self.release(robot, code);
+                self.release(robot, groups);
             }
             Stage::Idle => {}
-            Stage::Locking(action) => self.lock(robot, code, action),
+            Stage::Locking(action) => self.lock(robot, groups, action),
             Stage::Claiming(_, operation) | Stage::Storing(_, operation) => {
                 if self.register.status(operation) == Status::Unknown {
-                    self.release(robot, code);
+                    self.release(robot, groups);
                 }
             }
         }
     }
 
     /// Shows both primitives to `visit`.
-    pub fn primitives(&mut self, code: &Code, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+    pub fn primitives(&mut self, groups: &Groups, visit: &mut dyn FnMut(&mut dyn Primitive)) {
         for is_mutex in [true, false] {
             visit(&mut Half {
                 atomic: self,
-                code,
+                groups,
                 is_mutex,
             });
         }
@@ -308,14 +307,13 @@ impl Atomic {
     }
 
     /// Overwrites its state at random.
-    pub fn corrupt(&mut self, code: &Code, random: &mut Random) {
-        self.mutex.corrupt(random, &all_locks(code));
+    pub fn corrupt(&mut self, groups: &Groups, random: &mut Random) {
+        self.mutex.corrupt(random, &all_locks(groups));
         self.register.corrupt(random);
-        let actions = code.program().bytecode().actions.len() as u32;
-        let action = random.below(actions);
+        let action = random.below(groups.actions());
         match random.below(4) {
             0 => self.stage = Stage::Idle,
-            1 | 2 if code.group(action).is_some() => self.stage = Stage::Locking(action),
+            1 | 2 if groups.of_action(action).is_some() => self.stage = Stage::Locking(action),
             _ => {}
         }
     }
@@ -325,7 +323,7 @@ impl Atomic {
 /// so that the action continues at once.
 struct Half<'a> {
     atomic: &'a mut Atomic,
-    code: &'a Code,
+    groups: &'a Groups,
     is_mutex: bool,
 }
 
@@ -342,7 +340,7 @@ impl Primitive for Half<'_> {
             true => self.atomic.mutex.handle(robot, input),
             false => self.atomic.register.handle(robot, input),
         }
-        if self.atomic.is_ready(self.code) {
+        if self.atomic.is_ready(self.groups) {
             robot.deliver(robot.id(), self.port(), Payload::new());
         }
     }
@@ -360,10 +358,14 @@ fn values(bytes: Option<&[u8]>) -> Values {
     bytes.and_then(message::decode).unwrap_or_default()
 }
 
-fn lock(code: &Code, action: u32) -> Resources {
-    code.group(action).into_iter().map(Box::from).collect()
+fn lock(groups: &Groups, action: u32) -> Resources {
+    groups
+        .of_action(action)
+        .into_iter()
+        .map(Box::from)
+        .collect()
 }
 
-fn all_locks(code: &Code) -> Resources {
-    code.groups().map(Box::from).collect()
+fn all_locks(groups: &Groups) -> Resources {
+    groups.all().map(Box::from).collect()
 }

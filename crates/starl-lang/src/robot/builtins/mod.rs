@@ -345,7 +345,7 @@ pub static BUILTINS: &[Builtin] = &[
             let variable = Arguments::of(call).int() as usize;
             let code = host.context.code;
             let saved = host.context.robot.saved();
-            let value = saved.and_then(|saved| stable::saved(code, saved, variable));
+            let value = saved.and_then(|saved| stable::saved(code.stable(), saved, variable));
             give(code.program(), call, &[value])
         },
     ),

@@ -5,7 +5,7 @@
 //! its reports were last collected.
 
 use super::{Bound, KINDS, Report};
-use crate::robot::code::Instance;
+use crate::robot::instance::Instance;
 use crate::robot::rest::Disturbing;
 use alloc::boxed::Box;
 use alloc::vec::Vec;

@@ -20,8 +20,9 @@ pub use attended::{Attended, BoundPrimitive};
 pub(super) use shared::{candidates, give, give_all};
 
 use super::arguments::{Arguments, Called};
-use super::code::Instance;
 use super::host::Context;
+use super::instance::Instance;
+use super::services::Needs;
 use super::shape::{Shape, Signature};
 use crate::machine::{HostCall, Object};
 use alloc::borrow::Cow;
@@ -60,35 +61,6 @@ pub struct Report {
     pub scalars: Vec<u64>,
     /// The objects of its fields.
     pub objects: Vec<Object>,
-}
-
-/// The services that a kind of primitive needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Needs {
-    /// The memory that shared variables lie in.
-    pub memory: bool,
-    /// The detector of failed robots.
-    pub detector: bool,
-    /// The services of actions with `atomic`.
-    pub atomic: bool,
-}
-
-impl Needs {
-    /// Nothing.
-    pub const NOTHING: Needs = Needs {
-        memory: false,
-        detector: false,
-        atomic: false,
-    };
-
-    /// The needs of either.
-    pub fn or(self, other: Needs) -> Needs {
-        Needs {
-            memory: self.memory || other.memory,
-            detector: self.detector || other.detector,
-            atomic: self.atomic || other.atomic,
-        }
-    }
 }
 
 /// The frequent inputs that a kind of primitive needs. A fleet is large and most primitives wait for messages:

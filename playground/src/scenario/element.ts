@@ -1,53 +1,12 @@
-// A list of tables as a form: robots, waypoints, faults.
+// The elements of a list of tables: their fields, their first values, and the words that describe them.
 
-import { edit } from "./document.ts";
-import { Fields } from "./Fields.tsx";
-import { type Field, fieldsOf, fieldsOfModel, type Schema } from "./schema.ts";
+import { type Field, fieldsOfModel, type Schema } from "./schema.ts";
 import { isTable, type Table } from "./table.ts";
-import { append, remove, type Toml } from "./toml/edit.ts";
-import type { Path } from "./toml/layout.ts";
+import type { Toml } from "./toml/edit.ts";
 import { show } from "./values.ts";
 
-interface Properties {
-  field: Field;
-  table: Schema;
-  path: Path;
-  values: Table[];
-}
-
-export function Elements({ field, table, path, values }: Properties) {
-  const fields = fieldsOf(table);
-  const one = singular(field.label);
-  return (
-    <details class="table" open={values.length > 0 && values.length < 4 && path.length === 1}>
-      <summary>
-        {field.label} {values.length > 0 && <span class="badge">{values.length}</span>}
-      </summary>
-      <p class="muted">{field.about}</p>
-      {values.map((value, index) => {
-        const place = [...path, index];
-        return (
-          <details class="element" key={place.join(".")} open={values.length === 1}>
-            <summary>{describe(value, index, one)}</summary>
-            <Fields fields={withModel(fields, table, value)} path={place} value={value} />
-            <button type="button" onClick={() => edit((text) => remove(text, place))}>
-              Remove this {one.toLowerCase()}
-            </button>
-          </details>
-        );
-      })}
-      <button
-        type="button"
-        onClick={() => edit((text) => append(text, path, first(field.name, fields, values)))}
-      >
-        Add {one.toLowerCase()}
-      </button>
-    </details>
-  );
-}
-
 /** Parameters of a model are known by their names. */
-function withModel(fields: Field[], table: Schema, value: Table): Field[] {
+export function withModel(fields: Field[], table: Schema, value: Table): Field[] {
   if (typeof value.model !== "string") return fields;
   const own = fieldsOfModel(table, value.model);
   return fields.map((field) =>
@@ -66,7 +25,7 @@ function schemasOf(table: Schema, model: string): Record<string, Schema> {
 }
 
 /** The required fields of a new element. */
-function first(name: string, fields: Field[], values: Table[]): Table {
+export function first(name: string, fields: Field[], values: Table[]): Table {
   const made: Table = {};
   const taken = new Set(values.map((value) => value.name));
   for (const field of fields.filter(({ required }) => required)) made[field.name] = example(field, taken);
@@ -93,7 +52,7 @@ export function nextName(taken: Set<unknown>): string {
   }
 }
 
-function describe(value: Table, index: number, one: string): string {
+export function describe(value: Table, index: number, one: string): string {
   const shown = ["name", "model", "kind", "at", "count"].filter(
     (key) => value[key] !== undefined && !isTable(value[key]),
   );
@@ -104,4 +63,5 @@ function describe(value: Table, index: number, one: string): string {
   return words.length > 0 ? words.join(" ") : (shape ?? `${one} ${index + 1}`);
 }
 
-const singular = (label: string) => (label === "Robots" ? "Group" : label.replace(/s$/, ""));
+/** The word for one of the elements. */
+export const singular = (label: string) => (label === "Robots" ? "Group" : label.replace(/s$/, ""));
