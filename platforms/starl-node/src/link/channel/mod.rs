@@ -88,7 +88,7 @@ pub enum Opened {
 pub struct Channel {
     me: Member,
     fleet: String,
-    /// The keys that a handshake may use, the preferred one first; none where packets are not protected.
+    /// The keys that a handshake may use, the first one first; none where packets are not protected.
     keys: Vec<Key>,
     sessions: BTreeMap<u32, Session>,
     peers: BTreeMap<Member, Peer>,
@@ -104,8 +104,8 @@ struct Peer {
     earlier: Vec<u32>,
     /// A session that this end has answered to, and that the other end has not used yet.
     answered: Option<Answered>,
-    /// An initiation that waits for its response.
-    pending: Option<Pending>,
+    /// The initiations that wait for a response, one for each key, as far as they have been sent.
+    pending: Vec<Pending>,
     /// When the last initiation was sent.
     tried: Option<Time>,
     /// How many were sent since there was a session.
@@ -122,6 +122,7 @@ struct Answered {
 }
 
 struct Pending {
+    key: Key,
     index: u32,
     handshake: Box<HandshakeState>,
     /// The initiation, which is sent again until there is a response.
@@ -140,7 +141,7 @@ struct Session {
 }
 
 impl Channel {
-    /// The end of `me`. The first of `keys` is used, the others are accepted too while a fleet changes its key.
+    /// The end of `me`. The first of `keys` is tried first, the others too while a fleet changes its key.
     /// Without keys packets are neither protected nor checked.
     pub fn new(me: Member, fleet: &str, keys: Vec<Key>) -> Channel {
         Channel {
@@ -157,7 +158,7 @@ impl Channel {
     pub fn set_keys(&mut self, keys: Vec<Key>) {
         self.keys = keys;
         for peer in self.peers.values_mut() {
-            peer.pending = None;
+            peer.pending.clear();
         }
     }
 
@@ -213,9 +214,9 @@ impl Channel {
 
     /// The initiations that are due, each for a member. Call it a few times a second.
     pub fn due(&mut self, now: Time) -> Vec<(Member, Vec<u8>)> {
-        let Some(key) = self.keys.first().copied() else {
+        if self.keys.is_empty() {
             return Vec::new();
-        };
+        }
         self.forget_guests(now);
         let silence = match self.me < OPERATORS {
             true => SILENCE,
@@ -239,23 +240,15 @@ impl Channel {
             }
             peer.tried = Some(now);
             peer.attempts = peer.attempts.saturating_add(1);
-            if peer.pending.is_none() {
-                let index = fresh_index(&self.sessions);
-                peer.pending = index.and_then(|index| {
-                    let initiation = initiate(&self.fleet, self.me, member, &key, index);
-                    let (handshake, packet) = initiation.ok()?;
-                    Some(Pending {
-                        index,
-                        handshake,
-                        packet,
-                    })
-                });
+            // While the fleet changes its key, the other end may have only one of them.
+            let turn = (peer.attempts as usize - 1) % self.keys.len();
+            let key = &self.keys[turn];
+            if !peer.pending.iter().any(|pending| pending.key == *key) {
+                let pending = initiation(&self.fleet, self.me, member, key, &self.sessions);
+                peer.pending.extend(pending);
             }
-            due.extend(
-                peer.pending
-                    .iter()
-                    .map(|pending| (member, pending.packet.clone())),
-            );
+            let pending = peer.pending.iter().find(|pending| pending.key == *key);
+            due.extend(pending.map(|pending| (member, pending.packet.clone())));
         }
         due
     }
@@ -324,14 +317,12 @@ impl Channel {
     fn complete(&mut self, now: Time, packet: &[u8]) -> Result<Opened, Refusal> {
         let (index, rest) = number(packet)?;
         let (remote, message) = number(rest)?;
-        let awaited = self.peers.iter_mut().find(|(_, peer)| {
-            let pending = peer.pending.as_ref();
-            pending.is_some_and(|pending| pending.index == index)
+        let awaited = self.peers.iter_mut().find_map(|(&from, peer)| {
+            let mut pending = peer.pending.iter();
+            let place = pending.position(|pending| pending.index == index)?;
+            Some((from, peer.pending.remove(place)))
         });
-        let (&from, peer) = awaited.ok_or(Refusal::UnknownSession)?;
-        let Some(Pending { mut handshake, .. }) = peer.pending.take() else {
-            return Err(Refusal::UnknownSession);
-        };
+        let (from, Pending { mut handshake, .. }) = awaited.ok_or(Refusal::UnknownSession)?;
         if handshake.read_message(message, &mut [0; 64]).is_err() {
             // The next initiation is due anyway.
             return Err(Refusal::NotAuthentic);
@@ -339,6 +330,9 @@ impl Channel {
         let session = Session::new(now, from, remote, *handshake)?;
         self.sessions.insert(index, session);
         self.promote(from, index);
+        if let Some(peer) = self.peers.get_mut(&from) {
+            peer.pending.clear();
+        }
         Ok(Opened::Handshake { from, answer: None })
     }
 
@@ -410,6 +404,24 @@ impl Session {
             heard: now,
         })
     }
+}
+
+/// A new initiation with this key; none if none can be made.
+fn initiation(
+    fleet: &str,
+    me: Member,
+    to: Member,
+    key: &Key,
+    sessions: &BTreeMap<u32, Session>,
+) -> Option<Pending> {
+    let index = fresh_index(sessions)?;
+    let (handshake, packet) = initiate(fleet, me, to, key, index).ok()?;
+    Some(Pending {
+        key: *key,
+        index,
+        handshake,
+        packet,
+    })
 }
 
 fn plain(packet: &[u8]) -> Result<Opened, Refusal> {

@@ -326,6 +326,22 @@ fn a_key_is_changed_while_the_fleet_runs() {
 }
 
 #[test]
+fn a_member_with_both_keys_begins_sessions_with_members_that_have_one_of_them() {
+    let new = [9; 32];
+    for theirs in [KEY, new] {
+        let (mut a, mut b) = (Channel::new(0, "race", vec![new, KEY]), member(1, theirs));
+        let mut now = Time::ZERO;
+        while a.seal(1, b"hello").is_none() {
+            connect(&mut a, &mut b, now);
+            now = now + PATIENCE;
+            assert!(now < Time::ZERO + PATIENCE * 4, "no session");
+        }
+        let hello = a.seal(1, b"hello").unwrap();
+        assert!(matches!(b.open(now, &hello), Opened::Content { .. }));
+    }
+}
+
+#[test]
 fn a_handshake_ends_where_packets_take_long() {
     let (mut a, mut b) = (member(0, KEY), member(1, KEY));
     a.want(1);
