@@ -12,6 +12,7 @@ use starl_catalog::disk::{self, reason};
 use starl_catalog::programs::Registry;
 use starl_catalog::{Application, recording};
 use starl_core::{Event, Intervention, Record, Time};
+use starl_properties::Setting;
 use starl_sim::Run;
 use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
 use std::fs::File;
@@ -28,6 +29,16 @@ pub fn replay(arguments: &ReplayArguments, registry: &Registry) -> Result<bool, 
         steered,
         cut,
     } = read_through(path)?;
+    if let Some(setting) = of_real_robots(&header) {
+        let name = setting
+            .only
+            .map_or(&header.robots[0], |robot| &header.robots[robot.index()]);
+        let what = format!(
+            "is of real robots, which no simulation repeats; `--robot {}` repeats the software of one",
+            run::quoted(&name.name)
+        );
+        return Err(Failure::file(path, what));
+    }
     let application = inputs(path, &header, registry)?;
     let threads = threads::count(arguments.threads, application.scenario().fleet.len());
     let mut run = run::start(&application)?;
@@ -50,6 +61,12 @@ pub fn replay(arguments: &ReplayArguments, registry: &Registry) -> Result<bool, 
     let text = text + &version + &missing_end(cut.as_ref());
     console::print(&format!("{}: {text}\n", path.display()))?;
     Ok(same)
+}
+
+/// The setting of a trace that real robots have written; none for a simulated run.
+pub fn of_real_robots(header: &Header) -> Option<Setting> {
+    let setting: Setting = serde_json::from_str(&header.setting).ok()?;
+    (!setting.simulated).then_some(setting)
 }
 
 pub fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {

@@ -5,7 +5,9 @@ use crate::args::ReplayArguments;
 use crate::changed_program;
 use crate::console::{self, counted, grouped};
 use crate::failure::Failure;
-use crate::replay::{as_far_as_it_goes, inputs, missing_end, open, other_version, unreadable};
+use crate::replay::{
+    as_far_as_it_goes, inputs, missing_end, of_real_robots, open, other_version, unreadable,
+};
 use starl_catalog::programs::Registry;
 use starl_core::{Effect, Event, Intervention, Program, RobotId};
 use starl_host::{Departure, Difference, Replayer, journal};
@@ -21,6 +23,12 @@ pub fn replay(
     let path = arguments.trace.as_path();
     let header = open(path)?.header().clone();
     let Replayed { robot, like } = robot(path, &header, name)?;
+    if of_real_robots(&header).is_some_and(|setting| setting.only.is_none()) {
+        let what = format!(
+            "is joined from several robots on one time axis, which is not the clock of {name}; replay its own trace, such as {name}.1.mcap"
+        );
+        return Err(Failure::file(path, what));
+    }
     let mut replayer = Replayer::new(program(arguments, &header, like, registry)?);
     let Outcome { departure, cut } = feed(path, robot, &header, &mut replayer)?;
     let agreed = format!(

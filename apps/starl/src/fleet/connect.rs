@@ -10,6 +10,7 @@ use std::sync::mpsc;
 /// Connects to all robots of a fleet.
 pub fn connect(fleet: &Fleet) -> Result<Operator, Failure> {
     let keys = fleet.keys()?;
+    link::check_router(fleet)?;
     let (sender, inbox) = mpsc::channel();
     let me = fresh_member();
     let transport = link::open(fleet, None, me, move |arrival| sender.send(arrival).is_ok())?;

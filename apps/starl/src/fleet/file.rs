@@ -505,6 +505,14 @@ fn network(path: &Path, link: &Link) -> Result<Network, Failure> {
             format!("link.{field}: is for `kind = \"zenoh\"`; this link is UDP"),
         ));
     }
+    if let Some(router) = &link.router
+        && !router
+            .split_once('/')
+            .is_some_and(|(scheme, place)| !scheme.is_empty() && place.contains(':'))
+    {
+        let help = format!("{router:?} is not an endpoint; write it as \"tcp/192.168.0.1:7447\"");
+        return Err(Failure::file(path, format!("link.router: {help}")));
+    }
     if let (Some(router), tls) = (&link.router, &link.tls)
         && router.starts_with("tls/") != tls.is_some()
     {

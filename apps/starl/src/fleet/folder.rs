@@ -15,13 +15,11 @@ impl Folder {
     /// The folder of the next run of a fleet, or of the last one.
     pub fn of(fleet: &Path, is_new: bool) -> Result<Folder, Failure> {
         let runs = fleet.with_extension("runs");
-        let last = last_run(&runs);
-        let number = match (last, is_new) {
-            (Some(last), false) => last,
-            (Some(last), true) => last + 1,
-            (None, _) => 1,
+        let number = match is_new {
+            true => numbers(&runs).max().unwrap_or(0) + 1,
+            false => last_run(&runs).unwrap_or(1),
         };
-        Folder::open(&runs.join(format!("{number:04}")))
+        Folder::open(&runs.join(name(number)))
     }
 
     /// The folder of the last run of a fleet.
@@ -29,7 +27,7 @@ impl Folder {
         let runs = fleet.with_extension("runs");
         let last =
             last_run(&runs).ok_or_else(|| Failure::file(&runs, "the fleet has not run yet"))?;
-        Ok(Folder(runs.join(format!("{last:04}"))))
+        Ok(Folder(runs.join(name(last))))
     }
 
     /// Opens or makes this folder.
@@ -92,8 +90,22 @@ fn read_epoch(path: &Path) -> Result<Duration, Failure> {
     ))
 }
 
+/// The last run with a trace: a fleet that could not start has left none. Otherwise the last one.
 fn last_run(runs: &Path) -> Option<u32> {
-    let entries = fs::read_dir(runs).ok()?;
-    let numbers = entries.filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok());
-    numbers.max()
+    let has_trace = |number: &u32| {
+        let entries = fs::read_dir(runs.join(name(*number))).into_iter().flatten();
+        let mut paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        paths.any(|path| path.extension().is_some_and(|suffix| suffix == "mcap"))
+    };
+    let begun = numbers(runs).filter(has_trace).max();
+    begun.or_else(|| numbers(runs).max())
+}
+
+fn numbers(runs: &Path) -> impl Iterator<Item = u32> + use<> {
+    let entries = fs::read_dir(runs).into_iter().flatten();
+    entries.filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok())
+}
+
+fn name(number: u32) -> String {
+    format!("{number:04}")
 }

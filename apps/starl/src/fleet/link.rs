@@ -1,12 +1,14 @@
 //! Opens the network of a fleet, for a robot or for an operator.
 
 use super::file::{Fleet, LinkKind, Member};
+use crate::console;
 use crate::failure::Failure;
 use starl_catalog::disk::reason;
 use starl_node::WallClock;
 use starl_node::link::udp::Udp;
 use starl_node::link::{Arrival, Impaired, Transport};
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpStream, ToSocketAddrs};
+use std::time::Duration;
 
 /// Joins the network as `me`: as this robot, or as an operator if there is none.
 pub fn open(
@@ -27,6 +29,54 @@ pub fn open(
             Ok(Box::new(impaired.map_err(|error| Failure(reason(&error)))?))
         }
     }
+}
+
+/// How often the router is looked for.
+const PROBE: Duration = Duration::from_millis(200);
+
+/// Waits until the fleet's router can be reached, if it has one, and says for whom; whether it can be, before `is_over`.
+pub fn await_router(fleet: &Fleet, who: &str, is_over: impl Fn() -> bool) -> bool {
+    let Some(router) = &fleet.network.router else {
+        return true;
+    };
+    let mut is_told = false;
+    while !is_reachable(router) {
+        if is_over() {
+            return false;
+        }
+        if !std::mem::replace(&mut is_told, true) {
+            console::complain(&format!("{who}: waits for the router at {router}\n"));
+        }
+        std::thread::sleep(PROBE);
+    }
+    true
+}
+
+/// Refuses if the fleet has a router that does not answer: an operator has nothing to wait for.
+pub fn check_router(fleet: &Fleet) -> Result<(), Failure> {
+    match &fleet.network.router {
+        Some(router) if !is_reachable(router) => {
+            let file = fleet.path.display();
+            let what = format!(
+                "link.router: no router answers at {router}; `starl fleet router {file}` runs one there"
+            );
+            Err(Failure::file(&fleet.path, what))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether something listens at an endpoint of Zenoh, such as `tcp/192.168.0.1:7447`. What is not TCP cannot be asked.
+fn is_reachable(endpoint: &str) -> bool {
+    let Some((_, rest)) = endpoint
+        .split_once('/')
+        .filter(|(scheme, _)| ["tcp", "tls"].contains(scheme))
+    else {
+        return true;
+    };
+    let address = rest.split(['?', '#']).next().unwrap_or(rest);
+    let mut places = address.to_socket_addrs().into_iter().flatten();
+    places.any(|place| TcpStream::connect_timeout(&place, Duration::from_secs(1)).is_ok())
 }
 
 fn udp(

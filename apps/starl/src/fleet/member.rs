@@ -20,6 +20,8 @@ use starl_node::{Storage, WallClock};
 use starl_properties::Setting;
 use starl_sim::Scenario;
 use starl_sim::scenario::{self, Group};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Runs a robot.
 pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Failure> {
@@ -39,6 +41,17 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
     let storage = scenario.storage.kept.then(|| storage(&folder, member));
     let storage = storage.transpose()?;
     let (post, inbox) = mailbox();
+    let is_over = Arc::new(AtomicBool::new(false));
+    if arguments.supervised {
+        let (halt, is_over) = (post.clone(), is_over.clone());
+        when_abandoned(move || {
+            is_over.store(true, Ordering::Relaxed);
+            let _ = halt.send(Incoming::Halt);
+        });
+    }
+    if !link::await_router(&fleet, &member.name, || is_over.load(Ordering::Relaxed)) {
+        return Ok(true);
+    }
     let arrivals = post.clone();
     let transport = link::open(&fleet, Some(member), member.id.0, move |arrival| {
         arrivals.send(Incoming::Packet(arrival)).is_ok()
@@ -58,7 +71,7 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
         simulated: false,
         ..starl_sim::setting(scenario)
     };
-    let trace = TraceOutput::create(&path, fleet.application.resolved(), &setting, true)?;
+    let trace = TraceOutput::create(&path, fleet.application.resolved(), &setting, true);
     let recorder = FleetRecorder::new(
         member.id,
         &member.name,
@@ -66,12 +79,6 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
         fleet.trace_limit,
         arguments.quiet,
     );
-    if arguments.supervised {
-        let halt = post.clone();
-        when_abandoned(move || {
-            let _ = halt.send(Incoming::Halt);
-        });
-    }
     let halt = post.clone();
     on_interrupt(move || {
         let _ = halt.send(Incoming::Halt);

@@ -11,7 +11,7 @@ use super::folder::Folder;
 use crate::args::FleetMergeArguments;
 use crate::console;
 use crate::failure::Failure;
-use crate::output::create_now;
+use crate::output::{create_now, identity};
 use crate::replay::{open, unreadable};
 use endings::{Ending, Endings, Span};
 use starl_catalog::disk::{self, reason};
@@ -130,6 +130,14 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
     let Some(first) = lives.values().flatten().next() else {
         return Err(Failure::file(&folder.0, "holds no traces of robots"));
     };
+    if let Some(input) = lives
+        .values()
+        .flatten()
+        .find(|input| identity(input) == identity(out))
+    {
+        let what = "is one of the traces to join, which would be lost; give another file by --out";
+        return Err(Failure::file(input, what));
+    }
     let (mut header, mut setting) = header(first)?;
     let exchanges = Exchanges::read(&lives, &header)?;
     let recorded: Vec<RobotId> = lives
@@ -192,14 +200,17 @@ fn corrected(clocks: &BTreeMap<RobotId, Clock>, robot: RobotId, at: Time) -> Tim
 /// The header and the setting of one robot's trace, as those of a trace of all.
 fn header(path: &Path) -> Result<(Header, Setting), Failure> {
     let header = open(path)?.header().clone();
-    let setting: Setting = serde_json::from_str(&header.setting).map_err(|error| {
-        Failure::file(path, format!("the attachment starl/setting.json: {error}"))
-    })?;
     let setting = Setting {
         only: None,
-        ..setting
+        ..setting_of(path, &header)?
     };
     Ok((header, setting))
+}
+
+/// The setting of a trace with this header.
+fn setting_of(path: &Path, header: &Header) -> Result<Setting, Failure> {
+    serde_json::from_str(&header.setting)
+        .map_err(|error| Failure::file(path, format!("the attachment starl/setting.json: {error}")))
 }
 
 /// How a robot's clock differs from the first robot's.
@@ -292,6 +303,13 @@ impl Exchanges {
             .flat_map(|(robot, paths)| paths.iter().map(move |path| (robot, path)))
         {
             let mut life = Life::open(path, robot, 0)?;
+            if setting_of(path, life.reader.header())?.only != Some(robot) {
+                let name = &header.robots[robot.index()].name;
+                return Err(Failure::file(
+                    path,
+                    format!("is not a trace of {name} alone"),
+                ));
+            }
             if life.reader.header().scenario != header.scenario {
                 return Err(Failure::file(
                     path,

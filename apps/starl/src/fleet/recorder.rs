@@ -1,6 +1,7 @@
 //! Takes down what a robot does: a trace like that of any run, and lines for the person who watches.
 
 use crate::console;
+use crate::failure::Failure;
 use crate::trace_output::TraceOutput;
 use starl_core::event::{Event, Level};
 use starl_core::{Program, Record, RobotId, Time};
@@ -28,18 +29,19 @@ pub struct FleetRecorder {
 }
 
 impl FleetRecorder {
-    /// A recorder that writes to this trace until it has `limit` bytes.
+    /// A recorder that writes to this trace until it has `limit` bytes. A robot whose trace cannot be written does
+    /// without one.
     pub fn new(
         robot: RobotId,
         name: &str,
-        trace: TraceOutput,
+        trace: Result<TraceOutput, Failure>,
         limit: u64,
         is_quiet: bool,
     ) -> FleetRecorder {
         FleetRecorder {
             robot,
             name: name.to_string(),
-            trace: Some(trace),
+            trace: trace.map_err(|failure| tell_lost(&failure)).ok(),
             journal: Journal::new(robot, 1),
             batch: Batch::default(),
             end: Time::ZERO,
@@ -73,15 +75,19 @@ impl FleetRecorder {
         }
     }
 
-    fn keep(&mut self, done: impl FnOnce(&mut TraceOutput) -> Result<(), crate::failure::Failure>) {
+    fn keep(&mut self, done: impl FnOnce(&mut TraceOutput) -> Result<(), Failure>) {
         if let Some(Err(failure)) = self.trace.as_mut().map(done) {
-            console::error(&format!(
-                "{}: the robot continues without a trace",
-                failure.0
-            ));
+            tell_lost(&failure);
             self.trace = None;
         }
     }
+}
+
+fn tell_lost(failure: &Failure) {
+    console::error(&format!(
+        "{}: the robot continues without a trace",
+        failure.0
+    ));
 }
 
 impl Recorder for FleetRecorder {

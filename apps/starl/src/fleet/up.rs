@@ -12,7 +12,8 @@ use crate::{console, verify};
 use starl_catalog::disk::reason;
 use starl_catalog::programs::Registry;
 use starl_node::Operator;
-use starl_sim::scenario::Goal;
+use starl_sim::Scenario;
+use starl_sim::scenario::{FaultRates, Goal};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -56,7 +57,11 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
             .ok_or_else(|| Failure(format!("--duration {text}: give a time, such as 60s")))?,
         None => scenario.duration,
     };
+    warn(&fleet, scenario);
     let stop = stop_on_interrupt();
+    if !link::await_router(&fleet, &fleet.name, || stop.load(Ordering::Relaxed)) {
+        return Ok(false);
+    }
     let emulator = arguments
         .emulate
         .then(|| emulator(&arguments.fleet))
@@ -93,6 +98,26 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
         console::complain(&format!("emulated robots ran into something {times}\n"));
     }
     Ok(judged && is_clear && (is_reached || !ends_when_finished))
+}
+
+/// Says which parts of the scenario have no effect on real robots.
+fn warn(fleet: &Fleet, scenario: &Scenario) {
+    let faults = &scenario.faults;
+    let has_faults = !faults.schedule.is_empty() || faults.rates != FaultRates::default();
+    let parts = [
+        (
+            !scenario.events.is_empty(),
+            "events do not happen on real robots",
+        ),
+        (has_faults, "faults do not happen on real robots"),
+        (
+            matches!(scenario.goal, Goal::Condition(_)),
+            "goal is not judged on real robots; the fleet runs for the duration",
+        ),
+    ];
+    for (_, what) in parts.iter().filter(|(is_given, _)| *is_given) {
+        console::complain(&format!("warning: {}: the scenario's {what}\n", fleet.name));
+    }
 }
 
 /// Prints the processes to start, with their machines.
@@ -326,6 +351,12 @@ impl<'a> Robots<'a> {
     /// Ends all processes; robots that were ordered to stop have some time to do so.
     fn end(&mut self) {
         let begun = Instant::now();
+        // A robot whose supervisor has gone stops by itself, also if no order reaches it.
+        let children = self
+            .robots
+            .iter_mut()
+            .filter_map(|robot| robot.child.as_mut());
+        children.for_each(|child| drop(child.stdin.take()));
         for robot in &mut self.robots {
             let Some(child) = &mut robot.child else {
                 continue;

@@ -322,6 +322,30 @@ fn a_fleet_finishes_although_a_robot_is_killed() {
         "{}",
         stderr(&output)
     );
+    // Nothing repeats the robots together, whose clocks differ.
+    for arguments in [
+        &["replay", "merged.mcap"][..],
+        &["replay", "merged.mcap", "--robot", "robot0"],
+    ] {
+        let output = starl(&run, arguments);
+        assert_eq!(status(&output), 2, "{}", stdout(&output));
+    }
+    // The traces of robots are never overwritten.
+    let trace = run.join("robot0.1.mcap");
+    let before = std::fs::read(&trace).expect("it is there");
+    let arguments = [
+        "fleet",
+        "merge",
+        "fleet.toml",
+        "--out",
+        "fleet.runs/0001/robot0.1.mcap",
+    ];
+    assert_eq!(status(&starl(&folder, &arguments)), 2);
+    assert!(std::fs::read(&trace).is_ok_and(|after| after == before));
+    // A start that fails leaves a folder without traces, and is not the last run.
+    std::fs::create_dir(folder.join("fleet.runs/0002")).expect("it can be made");
+    let output = starl(&folder, &["fleet", "merge", "fleet.toml"]);
+    assert_eq!(status(&output), 0, "{}", stderr(&output));
 }
 
 /// Merges the last run of a folder's fleet and verifies the result; what both print.
@@ -741,6 +765,51 @@ fn robots_race_by_a_router_that_starts_after_them() {
     assert_eq!(stdout(&output), format!("routing at {endpoint}\nready\n"));
 }
 
+#[test]
+fn a_robot_whose_trace_cannot_be_written_drives_without_one() {
+    let folder = fleet("fleet_no_trace");
+    let run = folder.join("fleet.runs/0001");
+    std::fs::create_dir_all(&run).expect("it can be made");
+    let nowhere = folder.join("nowhere/trace.mcap");
+    std::os::unix::fs::symlink(nowhere, run.join("robot0.1.mcap")).expect("it can be made");
+    let output = Up::start(&folder, &["--resume"]).end();
+    let (text, messages) = (stdout(&output), stderr(&output));
+    assert_eq!(status(&output), 0, "{text}{messages}");
+    assert!(
+        messages.contains("the robot continues without a trace"),
+        "{messages}"
+    );
+    assert!(messages.contains("all robots have finished"), "{messages}");
+    assert!(text.contains("robot0: its trace is missing"), "{text}");
+}
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn a_fleet_without_its_router_waits_and_can_be_ended() {
+    let folder = folder("fleet_lost_router");
+    file(&folder, "race.toml", RACE);
+    let endpoint = format!("tcp/127.0.0.1:{}", ports(1));
+    let link = format!("link = {{ kind = \"zenoh\", router = \"{endpoint}\" }}\n");
+    file(
+        &folder,
+        "fleet.toml",
+        &format!("scenario = \"race.toml\"\n{link}"),
+    );
+    let up = Up::start(&folder, &[]);
+    std::thread::sleep(Duration::from_millis(500));
+    for command in ["status", "stop"] {
+        let output = starl(&folder, &["fleet", command, "fleet.toml"]);
+        let message = format!("link.router: no router answers at {endpoint}; `starl fleet router");
+        assert_eq!(status(&output), 2);
+        assert!(stderr(&output).contains(&message), "{}", stderr(&output));
+    }
+    interrupt(&up);
+    let output = up.end();
+    assert_eq!(status(&output), 1);
+    let message = format!("fleet: waits for the router at {endpoint}\n");
+    assert_eq!(stderr(&output), message);
+}
+
 #[cfg(feature = "zenoh")]
 #[test]
 fn a_router_needs_a_place() {
@@ -757,6 +826,13 @@ fn a_router_needs_a_place() {
         "scenario = \"race.toml\"\nlink.kind = \"zenoh\"\n",
     );
     refuse("link.router: give the place of the router");
+    let link = "link = { kind = \"zenoh\", router = \"127.0.0.1:7447\" }\n";
+    file(
+        &folder,
+        "fleet.toml",
+        &format!("scenario = \"race.toml\"\n{link}"),
+    );
+    refuse("link.router: \"127.0.0.1:7447\" is not an endpoint");
 }
 
 #[cfg(feature = "zenoh")]
