@@ -84,7 +84,7 @@ impl Merged {
             let file = path.file_name().unwrap_or_default().display();
             text += &match error {
                 TraceError::Truncated(_) | TraceError::NoEnd(_) if *at > Time::ZERO => format!(
-                    "{file}: is cut short at {:.3} s, where its process was killed or lost its power\n",
+                    "{file}: is cut short at {:.3} s, where its process was killed or lost its power, unless it still runs\n",
                     at.seconds()
                 ),
                 _ if *at > Time::ZERO => format!(

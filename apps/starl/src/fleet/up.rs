@@ -7,11 +7,12 @@ use super::merge::merge;
 use super::{key, link, stop};
 use crate::args::{FleetUpArguments, VerifyArguments};
 use crate::failure::Failure;
+use crate::replay::open;
 use crate::run::{quoted, stop_on_interrupt};
 use crate::{console, verify};
 use starl_catalog::disk::reason;
 use starl_catalog::programs::Registry;
-use starl_node::Operator;
+use starl_node::{Operator, WallClock};
 use starl_sim::Scenario;
 use starl_sim::scenario::{FaultRates, Goal};
 use std::io::{BufRead, BufReader};
@@ -50,7 +51,15 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
         key::make_if_missing(path)?;
     }
     let folder = Folder::of(&arguments.fleet, !arguments.resume)?;
-    folder.epoch()?;
+    check_resumed(&fleet, &folder)?;
+    let epoch = folder.epoch()?;
+    if let Some(future) = epoch.checked_sub(WallClock::system()) {
+        console::complain(&format!(
+            "warning: {}: began {:.0} s in the future, as this computer's clock was set back; time begins at 0 again\n",
+            folder.0.display(),
+            future.as_secs_f64()
+        ));
+    }
     let scenario = fleet.application.scenario();
     let limit = match &arguments.duration {
         Some(text) => starl_sim::read::duration(text)
@@ -98,6 +107,22 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
         console::complain(&format!("emulated robots ran into something {times}\n"));
     }
     Ok(judged && is_clear && (is_reached || !ends_when_finished))
+}
+
+/// Refuses to continue a run of another scenario, whose traces could not be joined with the new ones.
+fn check_resumed(fleet: &Fleet, folder: &Folder) -> Result<(), Failure> {
+    let scenario = &fleet.application.resolved().inputs.request.source.text;
+    for robot in &fleet.robots {
+        let Some(first) = folder.traces_of(&robot.name).into_iter().next() else {
+            continue;
+        };
+        // One that was cut short before its header says nothing.
+        if open(&first).is_ok_and(|trace| trace.header().scenario != *scenario) {
+            let what = "is a run of another scenario; begin a new run without --resume";
+            return Err(Failure::file(&folder.0, what));
+        }
+    }
+    Ok(())
 }
 
 /// Says which parts of the scenario have no effect on real robots.

@@ -783,6 +783,19 @@ fn a_robot_whose_trace_cannot_be_written_drives_without_one() {
     assert!(text.contains("robot0: its trace is missing"), "{text}");
 }
 
+#[test]
+fn a_run_of_another_scenario_is_not_continued() {
+    let folder = fleet("fleet_changed");
+    let output = Up::start(&folder, &["--duration", "1s"]).end();
+    assert_eq!(status(&output), 1, "{}", stderr(&output));
+    file(&folder, "race.toml", &RACE.replace("[2, 2]", "[2, 3]"));
+    let output = Up::start(&folder, &["--resume"]).end();
+    assert_eq!(status(&output), 2);
+    let message =
+        "error: fleet.runs/0001: is a run of another scenario; begin a new run without --resume\n";
+    assert_eq!(stderr(&output), message);
+}
+
 #[cfg(feature = "zenoh")]
 #[test]
 fn a_fleet_without_its_router_waits_and_can_be_ended() {

@@ -39,11 +39,21 @@ impl Pose {
         }
         let [i, j, k, w] = quaternion.map(|part| part / length);
         // Yaw, pitch and roll of R = Rz(yaw) Ry(pitch) Rx(roll).
+        let pitch = math::asin((2.0 * (w * j - k * i)).clamp(-1.0, 1.0));
+        let (ahead, left) = (1.0 - 2.0 * (j * j + k * k), 2.0 * (w * k + i * j));
+        // Straight up or down, yaw and roll turn about the same axis, and all of it counts as yaw.
+        let (yaw, roll) = match ahead.abs().max(left.abs()) < 1e-6 {
+            true => (math::wrap_angle(2.0 * math::atan2(k, w)), 0.0),
+            false => {
+                let roll = math::atan2(2.0 * (w * i + j * k), 1.0 - 2.0 * (i * i + j * j));
+                (math::atan2(left, ahead), roll)
+            }
+        };
         Some(Pose {
             position,
-            yaw: math::atan2(2.0 * (w * k + i * j), 1.0 - 2.0 * (j * j + k * k)),
-            pitch: math::asin((2.0 * (w * j - k * i)).clamp(-1.0, 1.0)),
-            roll: math::atan2(2.0 * (w * i + j * k), 1.0 - 2.0 * (i * i + j * j)),
+            yaw,
+            pitch,
+            roll,
         })
     }
 
@@ -97,5 +107,31 @@ mod tests {
         assert_eq!(Pose::of_quaternion(Point::ZERO, [0.0; 4]), None);
         let nan = [0.0, 0.0, f64::NAN, 1.0];
         assert_eq!(Pose::of_quaternion(Point::ZERO, nan), None);
+    }
+
+    #[test]
+    fn attitudes_that_point_straight_up_or_down_come_back_by_other_angles() {
+        for pitch in [-core::f64::consts::FRAC_PI_2, core::f64::consts::FRAC_PI_2] {
+            for (yaw, roll) in [
+                (0.0, 0.0),
+                (1.0, 0.5),
+                (-1.570_797_297, -1.570_797_297),
+                (3.0, -3.0),
+            ] {
+                let pose = Pose {
+                    position: Point::ZERO,
+                    yaw,
+                    pitch,
+                    roll,
+                };
+                let back = Pose::of_quaternion(Point::ZERO, pose.quaternion()).unwrap();
+                let pairs = pose.quaternion().into_iter().zip(back.quaternion());
+                let alike = pairs.map(|(one, two)| one * two).sum::<f64>().abs();
+                assert!(
+                    (alike - 1.0).abs() < 1e-12,
+                    "{pose:?} came back as {back:?}"
+                );
+            }
+        }
     }
 }
