@@ -34,7 +34,7 @@ pub fn open(
 /// How often the router is looked for.
 const PROBE: Duration = Duration::from_millis(200);
 
-/// Waits until the fleet's router can be reached, if it has one, and says for whom; whether it can be, before `is_over`.
+/// Waits until the fleet's router can be reached, if it has one, and reports that as `who`; whether it can be, before `is_over`.
 pub fn await_router(fleet: &Fleet, who: &str, is_over: impl Fn() -> bool) -> bool {
     let Some(router) = &fleet.network.router else {
         return true;
@@ -66,7 +66,7 @@ pub fn check_router(fleet: &Fleet) -> Result<(), Failure> {
     }
 }
 
-/// Whether something listens at an endpoint of Zenoh, such as `tcp/192.168.0.1:7447`. What is not TCP cannot be asked.
+/// Whether something listens at an endpoint of Zenoh, such as `tcp/192.168.0.1:7447`. Only TCP can be tried.
 fn is_reachable(endpoint: &str) -> bool {
     let Some((_, rest)) = endpoint
         .split_once('/')

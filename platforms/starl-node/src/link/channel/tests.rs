@@ -333,7 +333,7 @@ fn a_member_with_both_keys_begins_sessions_with_members_that_have_one_of_them() 
         let mut now = Time::ZERO;
         while a.seal(1, b"hello").is_none() {
             connect(&mut a, &mut b, now);
-            now = now + PATIENCE;
+            now += PATIENCE;
             assert!(now < Time::ZERO + PATIENCE * 4, "no session");
         }
         let hello = a.seal(1, b"hello").unwrap();
