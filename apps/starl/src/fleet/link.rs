@@ -68,15 +68,16 @@ pub fn check_router(fleet: &Fleet) -> Result<(), Failure> {
 
 /// Whether something listens at an endpoint of Zenoh, such as `tcp/192.168.0.1:7447`. Only TCP can be tried.
 fn is_reachable(endpoint: &str) -> bool {
-    let Some((_, rest)) = endpoint
-        .split_once('/')
-        .filter(|(scheme, _)| ["tcp", "tls"].contains(scheme))
-    else {
-        return true;
-    };
-    let address = rest.split(['?', '#']).next().unwrap_or(rest);
+    let (scheme, address) = parts(endpoint);
     let mut places = address.to_socket_addrs().into_iter().flatten();
-    places.any(|place| TcpStream::connect_timeout(&place, Duration::from_secs(1)).is_ok())
+    !["tcp", "tls"].contains(&scheme)
+        || places.any(|place| TcpStream::connect_timeout(&place, Duration::from_secs(1)).is_ok())
+}
+
+/// The scheme and the address of an endpoint, without its options.
+fn parts(endpoint: &str) -> (&str, &str) {
+    let (scheme, rest) = endpoint.split_once('/').unwrap_or(("", endpoint));
+    (scheme, rest.split(['?', '#']).next().unwrap_or(rest))
 }
 
 fn udp(
@@ -218,11 +219,7 @@ fn probes(fleet: &Fleet, robot: Option<&Member>) -> Result<Option<starl_zenoh::P
     let members = match &fleet.network.router {
         Some(router) => vec![Probed {
             name: "the router".to_string(),
-            address: router
-                .trim_start_matches("tls/")
-                .split(['?', '#'])
-                .take(1)
-                .collect(),
+            address: parts(router).1.to_string(),
         }],
         None => others
             .map(|other| Probed {

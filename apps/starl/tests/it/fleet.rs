@@ -733,18 +733,26 @@ fn ros_2_robots_race_and_locate_themselves() {
     );
 }
 
+/// A folder with a fleet of two robots that reach each other by a router, and its endpoint.
+#[cfg(feature = "zenoh")]
+fn fleet_with_router(test: &str) -> (std::path::PathBuf, String) {
+    let folder = fleet(test);
+    let endpoint = format!("tcp/127.0.0.1:{}", ports(1));
+    name_router(&folder, &endpoint);
+    (folder, endpoint)
+}
+
+#[cfg(feature = "zenoh")]
+fn name_router(folder: &Path, endpoint: &str) {
+    let link = format!("link = {{ kind = \"zenoh\", router = \"{endpoint}\" }}\n");
+    let text = format!("scenario = \"race.toml\"\n{link}");
+    file(folder, "fleet.toml", &text);
+}
+
 #[cfg(feature = "zenoh")]
 #[test]
 fn robots_race_by_a_router_that_starts_after_them() {
-    let folder = folder("fleet_router");
-    file(&folder, "race.toml", RACE);
-    let endpoint = format!("tcp/127.0.0.1:{}", ports(1));
-    let link = format!("link = {{ kind = \"zenoh\", router = \"{endpoint}\" }}\n");
-    file(
-        &folder,
-        "fleet.toml",
-        &format!("scenario = \"race.toml\"\n{link}"),
-    );
+    let (folder, endpoint) = fleet_with_router("fleet_router");
     let printed = starl(&folder, &["fleet", "up", "fleet.toml", "--print"]);
     let first = format!("{endpoint}: starl fleet router fleet.toml, or another Zenoh router\n");
     assert!(stdout(&printed).starts_with(&first), "{}", stdout(&printed));
@@ -799,15 +807,7 @@ fn a_run_of_another_scenario_is_not_continued() {
 #[cfg(feature = "zenoh")]
 #[test]
 fn a_fleet_without_its_router_waits_and_can_be_ended() {
-    let folder = folder("fleet_lost_router");
-    file(&folder, "race.toml", RACE);
-    let endpoint = format!("tcp/127.0.0.1:{}", ports(1));
-    let link = format!("link = {{ kind = \"zenoh\", router = \"{endpoint}\" }}\n");
-    file(
-        &folder,
-        "fleet.toml",
-        &format!("scenario = \"race.toml\"\n{link}"),
-    );
+    let (folder, endpoint) = fleet_with_router("fleet_lost_router");
     let up = Up::start(&folder, &[]);
     std::thread::sleep(Duration::from_millis(500));
     for command in ["status", "stop"] {
@@ -839,12 +839,7 @@ fn a_router_needs_a_place() {
         "scenario = \"race.toml\"\nlink.kind = \"zenoh\"\n",
     );
     refuse("link.router: give the place of the router");
-    let link = "link = { kind = \"zenoh\", router = \"127.0.0.1:7447\" }\n";
-    file(
-        &folder,
-        "fleet.toml",
-        &format!("scenario = \"race.toml\"\n{link}"),
-    );
+    name_router(&folder, "127.0.0.1:7447");
     refuse("link.router: \"127.0.0.1:7447\" is not an endpoint");
 }
 

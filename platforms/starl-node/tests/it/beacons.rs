@@ -1,18 +1,12 @@
 //! How often a robot tells each other robot where it is.
 
 use crate::support::{Idle, Notes, at, setup};
-use starl_core::{Command, Estimate, Point, Pose, Program, Robot, Saved};
-use starl_host::{PlanJob, StoreJob};
-use starl_motion::Neighbour;
+use starl_core::{Point, Pose, Program, Robot};
 use starl_node::link::beacon::Beacon;
 use starl_node::link::frame::Frame;
 use starl_node::link::{Arrival, Channel, Member, Origin};
 use starl_node::motors::Report;
-use starl_node::robot::{Core, Equipment, Incoming};
-use std::cell::RefCell;
-use std::collections::BTreeMap;
-use std::rc::Rc;
-use std::sync::Arc;
+use starl_node::robot::{Core, Incoming};
 use std::time::Instant;
 
 #[derive(Clone, Debug, starl_core::Primitives)]
@@ -22,35 +16,10 @@ impl Program for Waiting {
     fn activate(&mut self, _: &mut Robot<'_>) {}
 }
 
-/// Counts the packets to each member.
-#[derive(Clone, Default)]
-struct Counting(Rc<RefCell<BTreeMap<Member, u32>>>);
-
-impl Equipment for Counting {
-    fn saved(&self) -> Option<Arc<Saved>> {
-        Idle.saved()
-    }
-
-    fn has_fixes(&self) -> bool {
-        false
-    }
-
-    fn drive(&mut self, _: Command, _: &Estimate) {}
-
-    fn stop(&mut self) {}
-
-    fn end(&mut self) {}
-
-    fn find(&mut self, _: PlanJob, _: Vec<Neighbour>) {}
-
-    fn write(&mut self, _: StoreJob) {}
-
-    fn send(&mut self, to: Member, _: &[u8]) -> std::io::Result<()> {
-        *self.0.borrow_mut().entry(to).or_default() += 1;
-        Ok(())
-    }
-
-    fn learn(&mut self, _: Member, _: Origin) {}
+/// The number of packets to a member.
+fn count(idle: &Idle, member: Member) -> usize {
+    let sent = idle.sent.borrow();
+    sent.iter().filter(|(to, _)| *to == member).count()
 }
 
 /// A beacon of a robot that stands as many metres away as its number says.
@@ -76,28 +45,27 @@ fn numbered(from: Member, number: u32) -> Incoming {
 }
 
 /// A core of robot 0 of a fleet that has heard all others, and the packets that it has sent since.
-fn core(robots: u32) -> (Core<Notes, Counting>, Counting) {
+fn core(robots: u32) -> (Core<Notes, Idle>, Idle) {
     let mut setup = setup(Waiting);
     setup.bodies = vec![setup.bodies[0]; robots as usize];
-    let counting = Counting::default();
+    let idle = Idle::default();
     let channel = Channel::new(0, "fleet", Vec::new());
-    let mut core = Core::new(at(0), setup, channel, counting.clone(), Notes::default());
+    let mut core = Core::new(at(0), setup, channel, idle.clone(), Notes::default());
     core.step(at(0), &mut (1..robots).map(beacon).collect());
-    counting.0.borrow_mut().clear();
-    (core, counting)
+    idle.sent.borrow_mut().clear();
+    (core, idle)
 }
 
 /// The number of beacons that robot 0 of a fleet sends to each of the others in 6 s, if it is called so often and drives
 /// at so many metres per second.
-fn beacons(robots: u32, every_ms: usize, speed: f64) -> Vec<u32> {
-    let (mut core, counting) = core(robots);
+fn beacons(robots: u32, every_ms: usize, speed: f64) -> Vec<usize> {
+    let (mut core, idle) = core(robots);
     for ms in (1..=6000).step_by(every_ms) {
         let place = Point::planar(0.0, speed * ms as f64 * 1e-3);
         let seen = Report::Seen(at(ms), Pose::level(place, 0.0));
         core.step(at(ms), &mut vec![Incoming::Device(seen)]);
     }
-    let counts = counting.0.borrow();
-    (1..robots).map(|other| counts[&other]).collect()
+    (1..robots).map(|other| count(&idle, other)).collect()
 }
 
 #[test]
@@ -129,16 +97,16 @@ fn a_robot_of_a_large_fleet_that_stands_tells_others_in_turns() {
 
 #[test]
 fn a_robot_that_restarts_or_was_silent_for_long_is_answered_at_once() {
-    let (mut core, counting) = core(100);
+    let (mut core, idle) = core(100);
     for ms in (1..=3000).step_by(50) {
         core.step(at(ms), &mut Vec::new());
     }
     let mut answers = |ms: u64, number: u32| {
         // No round is due.
         core.step(at(ms), &mut Vec::new());
-        counting.0.borrow_mut().clear();
+        idle.sent.borrow_mut().clear();
         core.step(at(ms), &mut vec![numbered(50, number)]);
-        counting.0.borrow().get(&50).copied().unwrap_or(0)
+        count(&idle, 50)
     };
     assert_eq!(answers(3001, 7), 0, "it goes on");
     assert_eq!(answers(4001, 8), 0, "it goes on");

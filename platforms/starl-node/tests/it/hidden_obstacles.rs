@@ -63,7 +63,7 @@ fn run_for(
     reports: impl Fn(u64) -> Option<Report>,
 ) -> (Vec<(Time, Obstacle)>, String) {
     let channel = Channel::new(0, "fleet", Vec::new());
-    let mut core = Core::new(at(0), setup, channel, Idle, Notes::default());
+    let mut core = Core::new(at(0), setup, channel, Idle::default(), Notes::default());
     for ms in 0..=end {
         let mut incoming: Vec<_> = reports(ms).map(Incoming::Device).into_iter().collect();
         core.step(at(ms), &mut incoming);

@@ -1,16 +1,11 @@
 //! Operators see the last events of a robot that ends.
 
-use crate::support::{Idle, Notes, at, setup};
-use starl_core::{Command, Estimate, Event, Program, Robot, Saved};
-use starl_host::{PlanJob, StoreJob};
-use starl_motion::Neighbour;
+use crate::support::{Idle, Notes, Sent, at, setup};
+use starl_core::{Event, Program, Robot};
 use starl_node::link::channel::Opened;
 use starl_node::link::frame::Frame;
 use starl_node::link::{Arrival, Channel, Member, OPERATORS, Origin};
-use starl_node::robot::{Core, Equipment, Incoming};
-use std::cell::RefCell;
-use std::rc::Rc;
-use std::sync::Arc;
+use starl_node::robot::{Core, Incoming};
 use std::time::Instant;
 
 /// The operator that watches.
@@ -28,46 +23,16 @@ impl Program for Finishing {
     }
 }
 
-/// Keeps the packets to the operator.
-#[derive(Clone, Default)]
-struct Keeping(Rc<RefCell<Vec<Vec<u8>>>>);
-
-impl Equipment for Keeping {
-    fn saved(&self) -> Option<Arc<Saved>> {
-        Idle.saved()
-    }
-
-    fn has_fixes(&self) -> bool {
-        false
-    }
-
-    fn drive(&mut self, _: Command, _: &Estimate) {}
-
-    fn stop(&mut self) {}
-
-    fn end(&mut self) {}
-
-    fn find(&mut self, _: PlanJob, _: Vec<Neighbour>) {}
-
-    fn write(&mut self, _: StoreJob) {}
-
-    fn send(&mut self, to: Member, packet: &[u8]) -> std::io::Result<()> {
-        assert_eq!(to, OPERATOR);
-        self.0.borrow_mut().push(packet.to_vec());
-        Ok(())
-    }
-
-    fn learn(&mut self, _: Member, _: Origin) {}
-}
-
 /// The events in the packets to the operator.
-fn told(packets: &[Vec<u8>]) -> Vec<Event> {
+fn told(idle: &Idle) -> Vec<Event> {
     let mut operator = Channel::new(OPERATOR, "fleet", Vec::new());
-    let open = |packet: &Vec<u8>| match operator.open(at(0), packet) {
+    let open = |(to, packet): &Sent| match operator.open(at(0), packet) {
+        _ if *to != OPERATOR => panic!("a packet to {to}"),
         Opened::Content { content, .. } => starl_core::message::decode(&content),
         _ => None,
     };
-    let frames = packets.iter().filter_map(open);
+    let sent = idle.sent.borrow();
+    let frames = sent.iter().filter_map(open);
     let seen = frames.filter_map(|frame| match frame {
         Frame::Seen(seen) => Some(seen.events),
         _ => None,
@@ -85,15 +50,15 @@ fn a_robot_that_ends_sends_its_last_events_to_the_operators_that_watch_it() {
         origin: Origin::Named,
         packet: operator.seal(0, &watch).expect("it is not encrypted"),
     });
-    let (channel, sent) = (Channel::new(0, "fleet", Vec::new()), Keeping::default());
+    let (channel, idle) = (Channel::new(0, "fleet", Vec::new()), Idle::default());
     let software = setup(Finishing);
-    let mut core = Core::new(at(0), software, channel, sent.clone(), Notes::default());
+    let mut core = Core::new(at(0), software, channel, idle.clone(), Notes::default());
     core.step(at(100), &mut vec![watch]);
     // The next report is due at 150 ms.
     for ms in 101..149 {
         core.step(at(ms), &mut Vec::new());
     }
-    assert!(!told(&sent.0.borrow()).contains(&Event::Finished));
+    assert!(!told(&idle).contains(&Event::Finished));
     core.end(at(149));
-    assert!(told(&sent.0.borrow()).contains(&Event::Finished));
+    assert!(told(&idle).contains(&Event::Finished));
 }

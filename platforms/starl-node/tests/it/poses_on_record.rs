@@ -23,7 +23,13 @@ impl Program for Arriving {
 #[test]
 fn a_program_that_acts_on_a_jump_of_the_position_has_the_jump_on_record() {
     let channel = Channel::new(0, "fleet", Vec::new());
-    let mut core = Core::new(at(0), setup(Arriving), channel, Idle, Notes::default());
+    let mut core = Core::new(
+        at(0),
+        setup(Arriving),
+        channel,
+        Idle::default(),
+        Notes::default(),
+    );
     for ms in 0..=950 {
         let mut incoming = Vec::new();
         // The latest pose was recorded at 900 ms.

@@ -88,7 +88,7 @@ pub enum Opened {
 pub struct Channel {
     me: Member,
     fleet: String,
-    /// The keys that a handshake may use, the first one first; none where packets are not protected.
+    /// The keys that a handshake may use, in the order in which they are tried; none where packets are not protected.
     keys: Vec<Key>,
     sessions: BTreeMap<u32, Session>,
     peers: BTreeMap<Member, Peer>,
@@ -141,7 +141,7 @@ struct Session {
 }
 
 impl Channel {
-    /// The end of `me`. The first of `keys` is tried first, the others too while a fleet changes its key.
+    /// The end of `me`, which tries these keys in turn: while a fleet changes its key, there are two.
     /// Without keys packets are neither protected nor checked.
     pub fn new(me: Member, fleet: &str, keys: Vec<Key>) -> Channel {
         Channel {

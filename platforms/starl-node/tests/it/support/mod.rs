@@ -9,10 +9,18 @@ use starl_motion::sensing::SensorSuite;
 use starl_node::Safety;
 use starl_node::link::{Member, Origin};
 use starl_node::robot::{Equipment, Recorder, Setup};
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
-/// Does nothing; the positions come from outside.
-pub struct Idle;
+/// A packet with its receiver.
+pub type Sent = (Member, Vec<u8>);
+
+/// Only notes the packets that are sent; the positions come from outside. Copies share the notes.
+#[derive(Clone, Default)]
+pub struct Idle {
+    pub sent: Rc<RefCell<Vec<Sent>>>,
+}
 
 impl Equipment for Idle {
     fn saved(&self) -> Option<Arc<Saved>> {
@@ -33,7 +41,8 @@ impl Equipment for Idle {
 
     fn write(&mut self, _: StoreJob) {}
 
-    fn send(&mut self, _: Member, _: &[u8]) -> std::io::Result<()> {
+    fn send(&mut self, to: Member, packet: &[u8]) -> std::io::Result<()> {
+        self.sent.borrow_mut().push((to, packet.to_vec()));
         Ok(())
     }
 
