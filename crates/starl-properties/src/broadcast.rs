@@ -5,6 +5,7 @@
 //! up, whichever is first. If the sender reports it as acknowledged, all must have delivered it. In causal order a robot
 //! may hold a message back that it has received, so that only the bound counts there. Excused are robots that were
 //! down, all robots if the sender was down, and robots to which a partition dropped a datagram of the sender meanwhile.
+//! A robot that passes a message over is excused if a partition dropped one of its own to the sender.
 
 use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
@@ -66,6 +67,9 @@ impl Broadcast {
             BroadcastEvent::Transfer(TransferEvent::Acknowledged { message, .. }) => {
                 self.acknowledged(at, report.message(robot, *message), found);
             }
+            BroadcastEvent::PassOver { from, message } => {
+                self.passed_over(report.message(*from, *message), robot);
+            }
             _ => {}
         }
     }
@@ -90,14 +94,29 @@ impl Broadcast {
         }
     }
 
-    fn delivered(&mut self, key: MessageKey, robot: RobotId) {
-        if let Some(message) = self.outstanding.get_mut(&key) {
-            if let Ok(index) = message.owed.binary_search(&robot) {
-                message.owed.remove(index);
-            }
-            if message.owed.is_empty() {
-                self.outstanding.remove(&key);
-            }
+    /// A robot is owed the message no longer. Says whether it was.
+    fn delivered(&mut self, key: MessageKey, robot: RobotId) -> bool {
+        let Some(message) = self.outstanding.get_mut(&key) else {
+            return false;
+        };
+        let place = message.owed.binary_search(&robot);
+        if let Ok(index) = place {
+            message.owed.remove(index);
+        }
+        if message.owed.is_empty() {
+            self.outstanding.remove(&key);
+        }
+        place.is_ok()
+    }
+
+    /// In causal order a robot gives a message up. It may have to ask the sender before it can deliver the message.
+    fn passed_over(&mut self, key: MessageKey, robot: RobotId) {
+        let sent = self.outstanding.get_mut(&key).map(|message| message.sent);
+        if let Some(sent) = sent
+            && !self.health.linked_since(robot, key.from, sent)
+            && self.delivered(key, robot)
+        {
+            self.excused.note(DELIVERY, Excuse::Partition);
         }
     }
 

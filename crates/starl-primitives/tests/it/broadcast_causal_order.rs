@@ -200,6 +200,46 @@ fn messages_of_an_earlier_life_are_not_delivered_after_a_later_one_was_passed_ov
 }
 
 #[test]
+fn recent_messages_wait_until_it_is_known_which_life_is_later() {
+    let mut world = world(3, 7, Wire::perfect(), 0);
+    // Robot 2 hears nothing of the first life of robot 0, and late that robot 1 does.
+    world.wire.cut.extend([(0, 2), (1, 2)]);
+    let pause = Duration::from_millis(500);
+    world.command(0, tell(1));
+    world.run_for(pause);
+    world.command(1, tell(2));
+    world.run_for(pause);
+    // It meets the second life, holds its messages behind those of robot 1, and cannot ask it any more.
+    world.crash(0);
+    world.start(0);
+    world.wire.cut.remove(&(0, 2));
+    world.command(0, tell(3));
+    world.run_for(pause);
+    world.wire.cut.clear();
+    world.wire.cut.insert((2, 0));
+    world.command(1, tell(4));
+    world.run_for(pause);
+    let mut last = 4;
+    let passes_over = |world: &World| {
+        world
+            .events("pass_over")
+            .iter()
+            .any(|event| event.1 == RobotId(2))
+    };
+    while !passes_over(&world) {
+        assert!(last < 200, "robot 2 waits for ever");
+        last += 1;
+        world.command(0, tell(last));
+        world.run_for(pause);
+    }
+    world.wire.cut.clear();
+    world.run_for(Duration::from_seconds(3));
+    let told = told_to_2(&world);
+    assert!(told.len() > 10, "{told:?}");
+    assert!(told.ends_with(&[last.into()]), "{last}: {told:?}");
+}
+
+#[test]
 fn the_program_is_notified_of_missed_messages() {
     let mut world = hearsay(4);
     world.crash(0);

@@ -31,8 +31,8 @@ pub(super) struct Agreement {
     handed: BTreeMap<MessageKey, (Time, BTreeSet<RobotId>)>,
     /// By when it is judged, in that order.
     due: VecDeque<(Time, MessageKey)>,
-    /// Robots that have crashed at some time, and those of them that are down.
-    crashed: BTreeSet<RobotId>,
+    /// The robots that are in a group of an instance.
+    members: BTreeSet<(Port, RobotId)>,
     down: BTreeSet<RobotId>,
 }
 
@@ -47,7 +47,7 @@ impl Agreement {
             joined: BTreeMap::new(),
             handed: BTreeMap::new(),
             due: VecDeque::new(),
-            crashed: BTreeSet::new(),
+            members: BTreeSet::new(),
             down: BTreeSet::new(),
         }
     }
@@ -61,7 +61,7 @@ impl Agreement {
         if let (Event::Fault(fault), Some(robot)) = (&record.event, record.robot) {
             match fault {
                 Fault::Crash => {
-                    self.crashed.insert(robot);
+                    self.members.retain(|(_, member)| *member != robot);
                     self.down.insert(robot);
                 }
                 Fault::Restart => {
@@ -92,13 +92,25 @@ impl Agreement {
         if self.last_fault.is_some_and(|at| *sent < at + RECOVERY) {
             self.handed.remove(&key);
             excused.note(AGREEMENT, Excuse::Recovery);
-        } else if self.majority_with(key.from).is_none() || self.may_lack_voters(key.from) {
+        } else if self.majority_with(key.from).is_none() || self.may_lack_voters(key) {
             self.handed.remove(&key);
             excused.note(AGREEMENT, Excuse::NoMajority);
         }
     }
 
+    /// A robot has entered a group.
     pub fn joined(&mut self, port: Port, robot: RobotId, at: Time) {
+        self.members.insert((port, robot));
+        self.missed(port, robot, at);
+    }
+
+    /// A robot has left its group.
+    pub fn left(&mut self, port: Port, robot: RobotId) {
+        self.members.remove(&(port, robot));
+    }
+
+    /// A robot owes nothing from before this time.
+    pub fn missed(&mut self, port: Port, robot: RobotId, at: Time) {
         self.joined.insert((port, robot), at);
     }
 
@@ -170,7 +182,7 @@ impl Agreement {
             let joined = self.joined.get(&(key.port, *robot));
             self.health.well_from(*robot) <= sent && joined.is_some_and(|&at| at <= sent)
         };
-        if self.may_lack_voters(key.from) {
+        if self.may_lack_voters(key) {
             excused.note(AGREEMENT, Excuse::NoMajority);
             return Vec::new();
         }
@@ -194,16 +206,17 @@ impl Agreement {
         (near.len() > self.robots as usize / 2).then_some(near)
     }
 
-    /// Whether the robots that are down or apart leave too few voters to decide: others have restarted, and vote again
-    /// only when a leader has let them in.
-    fn may_lack_voters(&self, sender: RobotId) -> bool {
-        let is_away = |robot: &RobotId| self.down.contains(robot) || !self.is_with(sender, *robot);
-        let mut lost: BTreeSet<RobotId> = (0..self.robots).map(RobotId).filter(is_away).collect();
-        if lost.is_empty() {
-            return false;
-        }
+    /// Whether too few voters may be left to decide on a message of this sender. A robot that has restarted, or was cut
+    /// off when the group was founded, votes only once a leader has let it in.
+    fn may_lack_voters(&self, key: MessageKey) -> bool {
+        let all = || (0..self.robots).map(RobotId);
+        let is_away =
+            |robot: &RobotId| self.down.contains(robot) || !self.is_with(key.from, *robot);
+        let is_member = |robot: &RobotId| self.members.contains(&(key.port, *robot));
+        let lost = all()
+            .filter(|robot| is_away(robot) || !is_member(robot))
+            .count();
         let quorum = self.robots as usize / 2 + 1;
-        lost.extend(&self.crashed);
-        lost.len() > self.robots as usize - quorum
+        all().any(|robot| is_away(&robot)) && lost > self.robots as usize - quorum
     }
 }

@@ -151,6 +151,7 @@ impl BroadcastOrder {
             }
             // Before any message there may be members.
             BroadcastEvent::Join { .. } => return self.agreement.joined(port, robot, at),
+            BroadcastEvent::Leave { .. } => self.agreement.left(port, robot),
             _ => {}
         }
         let is_judged = self.void_until.is_none();
@@ -214,7 +215,7 @@ impl BroadcastOrder {
             }
             BroadcastEvent::Gap => {
                 instance.sequences.gap(robot);
-                self.agreement.joined(port, robot, at);
+                self.agreement.missed(port, robot, at);
             }
             BroadcastEvent::Transfer(TransferEvent::Fail { message, .. }) => {
                 let key = report.message(robot, *message);

@@ -245,6 +245,34 @@ fn robots_that_meet_only_after_a_cut_owe_nothing_from_before() {
 }
 
 #[test]
+fn a_robot_that_passes_a_message_over_is_excused_only_if_it_could_not_ask_for_it() {
+    for (link, excused) in [((1, 0), true), ((1, 2), false)] {
+        let mut story = Story::of_ground_robots(3);
+        story.setting.properties.broadcast_bound = seconds(5);
+        for (millis, number) in [(700, 1), (1000, 2)] {
+            let fields = [
+                ("number", number.into()),
+                ("incarnation", 7u32.into()),
+                ("retry_span", 4.0.into()),
+                ("order", "causal".into()),
+            ];
+            story.report(millis, 0, ("broadcast", "broadcast"), fields);
+        }
+        for (millis, robot, number) in [(800, 1, 1), (800, 2, 1), (1100, 2, 2)] {
+            story.delivers(millis, robot, "broadcast", (0, number));
+        }
+        dropped(&mut story, 1500, link, DropReason::Partition);
+        let over = [
+            ("from", RobotId(0).into()),
+            ("number", 2u32.into()),
+            ("incarnation", 7u32.into()),
+        ];
+        story.report(9000, 1, ("broadcast", "pass_over"), over);
+        assert_eq!(story.verdict(60_000).is_empty(), excused, "{link:?}");
+    }
+}
+
+#[test]
 fn loss_and_range_excuse_no_robot() {
     for reason in [DropReason::Loss, DropReason::Range, DropReason::Bandwidth] {
         let mut story = robot_2_hears_nothing();

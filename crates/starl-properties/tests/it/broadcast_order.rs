@@ -228,10 +228,7 @@ fn concurrent_messages_may_be_delivered_in_any_order() {
 /// Robots 0 and 1 each send a message, which all deliver in the order of `places`.
 fn ordered(places: [[(u32, u32); 2]; 3]) -> Story {
     let mut story = story();
-    for robot in 0..3 {
-        let fields = [("group", 1u32.into())];
-        story.report(500, robot, ("broadcast", "join"), fields);
-    }
+    (0..3).for_each(|robot| joins(&mut story, 500, robot));
     sends(&mut story, 1000, 0, 1, "total");
     sends(&mut story, 1000, 1, 1, "total");
     for (robot, sequence) in places.into_iter().enumerate() {
@@ -241,6 +238,15 @@ fn ordered(places: [[(u32, u32); 2]; 3]) -> Story {
         }
     }
     story
+}
+
+fn joins(story: &mut Story, millis: u64, robot: u32) {
+    story.report(
+        millis,
+        robot,
+        ("broadcast", "join"),
+        [("group", 1u32.into())],
+    );
 }
 
 #[test]
@@ -316,7 +322,7 @@ fn robots_that_are_down_or_apart_or_joined_later_are_not_judged() {
     apart.sends(2060, 0, 1, 1);
     assert_none(&apart.verdict(90_000));
     let mut later = left_out();
-    later.report(2050, 2, ("broadcast", "join"), [("group", 1u32.into())]);
+    joins(&mut later, 2050, 2);
     assert_none(&later.verdict(90_000));
 }
 
@@ -411,6 +417,35 @@ fn a_robot_that_is_apart_excuses_only_where_another_has_crashed() {
     let excused = cut(&[1]).excused(90_000, property);
     let reasons: Vec<Excuse> = excused.into_iter().map(|(excuse, _)| excuse).collect();
     assert!(reasons.contains(&Excuse::NoMajority), "{reasons:?}");
+}
+
+#[test]
+fn a_robot_that_is_apart_excuses_where_another_is_in_no_group() {
+    let cut_off = |members: &[u32]| {
+        let mut story = story();
+        for &robot in members {
+            joins(&mut story, 500, robot);
+        }
+        story.fault(2200, None, "partition");
+        story.sends(2300, 0, 1, 1);
+        sends(&mut story, 40_000, 0, 1, "total");
+        story
+    };
+    let property = "broadcast.agreement";
+    let all = cut_off(&[0, 1, 2]);
+    assert_only(&all.verdict(90_000), property, 45_000, &[0, 0, 1]);
+    // Of the two voters only robot 0 can be reached.
+    assert_none(&cut_off(&[0, 2]).verdict(90_000));
+    let mut left = all.clone();
+    left.report(
+        3000,
+        1,
+        ("broadcast", "leave"),
+        [("reason", "obsolete".into())],
+    );
+    assert_none(&left.verdict(90_000));
+    joins(&mut left, 3100, 1);
+    assert_only(&left.verdict(90_000), property, 45_000, &[0, 0, 1]);
 }
 
 #[test]

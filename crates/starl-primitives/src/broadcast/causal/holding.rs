@@ -210,13 +210,13 @@ impl Causal {
         if !is_missed {
             return;
         }
-        if number > 0 {
-            let rank = self.vector.rank(process);
-            let unheard = match need.is_over {
-                true => Rank::Unheard,
-                false => Rank::Unknown,
-            };
-            self.give_up_earlier(robot, from, rank.unwrap_or(unheard));
+        // If it is unknown which life is later, those that are held wait for the sender's answer instead.
+        let rank = self.vector.rank(process);
+        let rank = rank.or(need.is_over.then_some(Rank::Unheard));
+        if number > 0
+            && let Some(rank) = rank
+        {
+            self.give_up_earlier(robot, from, rank);
         }
         // A robot that joins late has not lost the messages that were sent before.
         let mut is_joined = self.vector.is_joined(from);

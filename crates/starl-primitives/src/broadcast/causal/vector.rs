@@ -94,8 +94,6 @@ pub(super) enum Rank {
     /// It was never heard, and is earlier than the present life.
     Unheard,
     Present,
-    /// It may be later than the present life.
-    Unknown,
 }
 
 /// All robots that were heard of.
