@@ -120,6 +120,8 @@ events! {
             /// Counts the groups that there were.
             group: u32,
         },
+        /// In total order: the robot knows that it is a voter of its group.
+        Voter = "voter",
         /// In total order: the robot gives up its group.
         Leave = "leave" {
             /// Why.

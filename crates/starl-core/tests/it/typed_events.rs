@@ -123,6 +123,7 @@ fn events() -> Vec<PrimitiveEvent> {
         BroadcastEvent::Late { from, message },
         BroadcastEvent::PassOver { from, message },
         BroadcastEvent::Join { group: 2 },
+        BroadcastEvent::Voter,
         BroadcastEvent::Leave {
             reason: LeaveReason::Obsolete,
         },

@@ -31,8 +31,8 @@ pub(super) struct Agreement {
     handed: BTreeMap<MessageKey, (Time, BTreeSet<RobotId>)>,
     /// By when it is judged, in that order.
     due: VecDeque<(Time, MessageKey)>,
-    /// The robots that are in a group of an instance.
-    members: BTreeSet<(Port, RobotId)>,
+    /// The robots that vote in the present group of each instance.
+    voters: BTreeSet<(Port, RobotId)>,
     down: BTreeSet<RobotId>,
 }
 
@@ -47,7 +47,7 @@ impl Agreement {
             joined: BTreeMap::new(),
             handed: BTreeMap::new(),
             due: VecDeque::new(),
-            members: BTreeSet::new(),
+            voters: BTreeSet::new(),
             down: BTreeSet::new(),
         }
     }
@@ -61,7 +61,7 @@ impl Agreement {
         if let (Event::Fault(fault), Some(robot)) = (&record.event, record.robot) {
             match fault {
                 Fault::Crash => {
-                    self.members.retain(|(_, member)| *member != robot);
+                    self.voters.retain(|(_, voter)| *voter != robot);
                     self.down.insert(robot);
                 }
                 Fault::Restart => {
@@ -98,20 +98,19 @@ impl Agreement {
         }
     }
 
-    /// A robot has entered a group.
+    /// A robot delivers what is decided from now on.
     pub fn joined(&mut self, port: Port, robot: RobotId, at: Time) {
-        self.members.insert((port, robot));
-        self.missed(port, robot, at);
+        self.joined.insert((port, robot), at);
+    }
+
+    /// A robot has become a voter of its group.
+    pub fn votes(&mut self, port: Port, robot: RobotId) {
+        self.voters.insert((port, robot));
     }
 
     /// A robot has left its group.
     pub fn left(&mut self, port: Port, robot: RobotId) {
-        self.members.remove(&(port, robot));
-    }
-
-    /// A robot owes nothing from before this time.
-    pub fn missed(&mut self, port: Port, robot: RobotId, at: Time) {
-        self.joined.insert((port, robot), at);
+        self.voters.remove(&(port, robot));
     }
 
     /// Whether anything will be due.
@@ -212,11 +211,10 @@ impl Agreement {
         let all = || (0..self.robots).map(RobotId);
         let is_away =
             |robot: &RobotId| self.down.contains(robot) || !self.is_with(key.from, *robot);
-        let is_member = |robot: &RobotId| self.members.contains(&(key.port, *robot));
-        let lost = all()
-            .filter(|robot| is_away(robot) || !is_member(robot))
+        let votes = |robot: &RobotId| self.voters.contains(&(key.port, *robot));
+        let left = all()
+            .filter(|robot| votes(robot) && !is_away(robot))
             .count();
-        let quorum = self.robots as usize / 2 + 1;
-        all().any(|robot| is_away(&robot)) && lost > self.robots as usize - quorum
+        all().any(|robot| is_away(&robot)) && left < self.robots as usize / 2 + 1
     }
 }

@@ -151,6 +151,7 @@ impl BroadcastOrder {
             }
             // Before any message there may be members.
             BroadcastEvent::Join { .. } => return self.agreement.joined(port, robot, at),
+            BroadcastEvent::Voter => return self.agreement.votes(port, robot),
             BroadcastEvent::Leave { .. } => self.agreement.left(port, robot),
             _ => {}
         }
@@ -215,7 +216,7 @@ impl BroadcastOrder {
             }
             BroadcastEvent::Gap => {
                 instance.sequences.gap(robot);
-                self.agreement.missed(port, robot, at);
+                self.agreement.joined(port, robot, at);
             }
             BroadcastEvent::Transfer(TransferEvent::Fail { message, .. }) => {
                 let key = report.message(robot, *message);

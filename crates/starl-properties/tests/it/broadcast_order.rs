@@ -228,7 +228,7 @@ fn concurrent_messages_may_be_delivered_in_any_order() {
 /// Robots 0 and 1 each send a message, which all deliver in the order of `places`.
 fn ordered(places: [[(u32, u32); 2]; 3]) -> Story {
     let mut story = story();
-    (0..3).for_each(|robot| joins(&mut story, 500, robot));
+    (0..3).for_each(|robot| enters(&mut story, 500, robot));
     sends(&mut story, 1000, 0, 1, "total");
     sends(&mut story, 1000, 1, 1, "total");
     for (robot, sequence) in places.into_iter().enumerate() {
@@ -247,6 +247,16 @@ fn joins(story: &mut Story, millis: u64, robot: u32) {
         ("broadcast", "join"),
         [("group", 1u32.into())],
     );
+}
+
+/// A robot enters the group as a voter.
+fn enters(story: &mut Story, millis: u64, robot: u32) {
+    joins(story, millis, robot);
+    votes(story, millis, robot);
+}
+
+fn votes(story: &mut Story, millis: u64, robot: u32) {
+    story.report(millis, robot, ("broadcast", "voter"), []);
 }
 
 #[test]
@@ -420,11 +430,12 @@ fn a_robot_that_is_apart_excuses_only_where_another_has_crashed() {
 }
 
 #[test]
-fn a_robot_that_is_apart_excuses_where_another_is_in_no_group() {
-    let cut_off = |members: &[u32]| {
+fn a_robot_that_is_apart_excuses_where_another_does_not_vote() {
+    let cut_off = |voters: &[u32]| {
         let mut story = story();
-        for &robot in members {
-            joins(&mut story, 500, robot);
+        (0..3).for_each(|robot| joins(&mut story, 500, robot));
+        for &robot in voters {
+            votes(&mut story, 600, robot);
         }
         story.fault(2200, None, "partition");
         story.sends(2300, 0, 1, 1);
@@ -445,6 +456,8 @@ fn a_robot_that_is_apart_excuses_where_another_is_in_no_group() {
     );
     assert_none(&left.verdict(90_000));
     joins(&mut left, 3100, 1);
+    assert_none(&left.verdict(90_000));
+    votes(&mut left, 3200, 1);
     assert_only(&left.verdict(90_000), property, 45_000, &[0, 0, 1]);
 }
 

@@ -98,7 +98,11 @@ impl Total {
             && let Some(entry) = member.log.get(member.applied + 1)
         {
             member.applied += 1;
+            let has_voted = member.roll.last(me).is_some();
             member.roll.advance(&entry.what);
+            if !has_voted && member.roll.last(me).is_some() {
+                robot.report(self.port, BroadcastEvent::Voter);
+            }
             let What::Message {
                 from,
                 number,

@@ -233,6 +233,9 @@ impl Total {
             .is_some_and(|position| position < (member.generation, member.commit));
         let group = member.generation.counter;
         robot.report(self.port, BroadcastEvent::Join { group });
+        if member.roll.last(self.life(robot)).is_some() {
+            robot.report(self.port, BroadcastEvent::Voter);
+        }
         self.member = Some(member);
         self.idle = Idle::default();
         if is_next {

@@ -9,6 +9,7 @@ use super::packet::{Body, Generation};
 use super::roll::Roll;
 use super::{Member, Role, Total};
 use alloc::vec::Vec;
+use starl_core::event::BroadcastEvent;
 use starl_core::{Destination, Robot};
 
 /// Where a robot can continue.
@@ -89,6 +90,7 @@ impl Total {
 
     /// A member continues from a later place, if it has to.
     fn leap(&mut self, robot: &mut Robot<'_>, place: &Place) {
+        let me = self.life(robot);
         let Some(member) = &mut self.member else {
             return;
         };
@@ -101,11 +103,16 @@ impl Total {
             member.commit = index;
             return self.apply(robot);
         }
+        let has_voted = member.roll.last(me).is_some();
         member.roll = Roll::new(place.roll.clone());
+        let votes = member.roll.last(me).is_some();
         let voters = place.roll.iter().map(|row| row.0).collect();
         member.log = Log::after(index, term, voters);
         member.quorum = place.quorum;
         (member.commit, member.applied) = (index, index);
+        if votes && !has_voted {
+            robot.report(self.port, BroadcastEvent::Voter);
+        }
         self.miss(robot);
     }
 }
