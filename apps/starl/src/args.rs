@@ -365,7 +365,7 @@ pub struct FleetRouterArguments {
 }
 
 /// Changes of a target that is run many times, or drawn.
-#[derive(Args, Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct ChangeArguments {
     /// The scenario for a program, as for `starl run`
     #[arg(long, value_name = "SCENARIO")]

@@ -48,6 +48,14 @@ pub struct Examined {
     pub failures: Vec<Failure>,
 }
 
+impl Examined {
+    /// The files on disk.
+    pub fn paths(&self) -> Vec<PathBuf> {
+        let files = self.files.iter();
+        files.filter_map(|file| file.identity.clone()).collect()
+    }
+}
+
 /// A file that was checked.
 pub struct Examinee {
     name: String,

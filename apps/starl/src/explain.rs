@@ -5,6 +5,7 @@ use crate::check::examine;
 use crate::console;
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::outputs::refuse_to_overwrite;
 use crate::sources::{self, Source};
 use crate::target::no_example;
 use starl_catalog::examples;
@@ -22,6 +23,8 @@ pub fn run(arguments: &ExplainArguments) -> Result<bool, Failure> {
     }
     let source = find(&arguments.program)?;
     let examined = examine(&source, |_| Vec::new())?;
+    let mut read = examined.paths();
+    read.extend(source.identity());
     sources::fail(examined.failures)?;
     if examined.files.iter().any(|file| file.has_errors()) {
         for file in &examined.files {
@@ -43,6 +46,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<bool, Failure> {
     };
     match &arguments.output {
         Some(path) => {
+            refuse_to_overwrite(&[("--output", Some(path))], &read)?;
             let (output, file) = Output::create(path)?;
             output.write(file, text.as_bytes())?;
         }
@@ -77,6 +81,7 @@ fn find(program: &str) -> Result<Source, Failure> {
     match program {
         "-" => Ok(Source::Input),
         _ if path.is_dir() => Err(Failure::file(&path, "is a folder; name the program in it")),
+        _ if sources::is_scenario(&path) => Err(Failure::file(&path, sources::SCENARIO)),
         _ if path.exists() => Ok(Source::File(path)),
         _ if is_code(program) => Err(Failure(format!(
             "{program}: there is no error or warning with this code; `starl check` prints the code of each problem"

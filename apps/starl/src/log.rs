@@ -5,7 +5,8 @@ use crate::console;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use starl_core::event::{Event, Level};
-use starl_core::{Record, RobotId};
+use starl_core::{Intervention, Record, RobotId};
+use starl_sim::Scenario;
 use starl_sim::read::suggest;
 use starl_sim::scenario::Fleet;
 use std::fmt::Write;
@@ -24,8 +25,8 @@ impl Shown {
 /// Shows lines of the log during the run.
 pub struct Log {
     least: Level,
-    /// The robots whose lines are shown; all if none are named.
-    only: Option<Vec<RobotId>>,
+    /// The names of the robots whose lines are shown; all if none are named.
+    only: Option<Vec<String>>,
     width: usize,
 }
 
@@ -34,31 +35,32 @@ impl Log {
     ///
     /// # Errors
     /// If they name a robot that the fleet does not have.
-    pub fn of(arguments: &LogArguments, fleet: &Fleet) -> Result<Option<Log>, Failure> {
+    pub fn of(arguments: &LogArguments, scenario: &Scenario) -> Result<Option<Log>, Failure> {
         let Some(level) = arguments.log else {
             return Ok(None);
         };
-        let robots = || (0..fleet.len() as u32).map(RobotId);
-        let find = |name: &String| {
-            let found = robots().find(|&robot| fleet.name(robot) == *name);
-            found.ok_or_else(|| {
-                let names: Vec<String> = robots().map(|robot| fleet.name(robot)).collect();
+        let fleet = &scenario.fleet;
+        let started = (0..fleet.len() as u32).map(|robot| fleet.name(RobotId(robot)));
+        let joining = scenario
+            .events
+            .iter()
+            .filter_map(|event| match &event.what {
+                Intervention::Join { name, .. } => Some(name.clone()),
+                _ => None,
+            });
+        let names: Vec<String> = started.chain(joining).collect();
+        for name in &arguments.log_robots {
+            if !names.contains(name) {
                 let names: Vec<&str> = names.iter().map(String::as_str).collect();
                 let help = suggest::help(name, &names, "the robots are").unwrap_or_default();
-                Failure(format!("--log-robots: there is no robot {name}; {help}"))
-            })
-        };
-        let only = match &arguments.log_robots[..] {
-            [] => None,
-            names => Some(names.iter().map(find).collect::<Result<Vec<_>, _>>()?),
-        };
-        let named = only
-            .as_ref()
-            .map_or_else(|| robots().take(100).collect(), Vec::clone);
-        let width = named
-            .iter()
-            .map(|&robot| fleet.name(robot).chars().count())
-            .max();
+                let text = format!("--log-robots: there is no robot {name}; {help}");
+                return Err(Failure(text));
+            }
+        }
+        let named = &arguments.log_robots;
+        let only = (!named.is_empty()).then(|| named.clone());
+        let shown = only.as_ref().unwrap_or(&names).iter().take(100);
+        let width = shown.map(|name| name.chars().count()).max();
         Ok(Some(Log {
             least: level.least(),
             only,
@@ -73,7 +75,8 @@ impl Log {
             (Event::Failed(text), Some(robot)) => (Level::Error, text, robot),
             _ => return,
         };
-        let is_wanted = self.only.as_ref().is_none_or(|only| only.contains(&robot));
+        let only = self.only.as_ref();
+        let is_wanted = only.is_none_or(|only| only.contains(&fleet.name(robot)));
         if level < self.least || !is_wanted {
             return;
         }

@@ -39,7 +39,7 @@ pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failur
     let mut outputs = Outputs::open(arguments, application.resolved(), &setting, &files, picture)?;
     let shown = !arguments.quiet && !arguments.json;
     let progress = Progress::new(shown, scenario.duration);
-    let log = Log::of(&arguments.log, &scenario.fleet)?;
+    let log = Log::of(&arguments.log, scenario)?;
     let begun = Instant::now();
     let driven = threads::with(threads, || {
         drive(&mut run, &mut outputs, log.as_ref(), &progress, &stop)

@@ -185,14 +185,21 @@ pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
                 failures.push(Failure::file(argument, message));
             }
             files.into_iter().for_each(|path| add(Source::File(path)));
-        } else if argument.extension().is_some_and(|suffix| suffix == "toml") && argument.exists() {
-            let message = "is a scenario, not a program; `starl run` reads and checks it";
-            failures.push(Failure::file(argument, message));
+        } else if is_scenario(argument) {
+            failures.push(Failure::file(argument, SCENARIO));
         } else {
             add(Source::File(argument.clone()));
         }
     }
     (sources, failures)
+}
+
+/// What a scenario in place of a program is told.
+pub const SCENARIO: &str = "is a scenario, not a program; `starl run` reads and checks it";
+
+/// Whether a file is a scenario, by its name.
+pub fn is_scenario(path: &Path) -> bool {
+    path.extension().is_some_and(|suffix| suffix == "toml") && path.exists()
 }
 
 /// The programs and libraries of a folder. Names that begin with a point are omitted, and so are

@@ -236,9 +236,16 @@ pub fn no_example(name: &str, other: &str) -> Failure {
     ))
 }
 
+/// How traces begin, as all files in MCAP do.
+const TRACE: &[u8] = b"\x89MCAP";
+
 /// The text of a file.
 pub fn text(path: &Path) -> Result<String, Failure> {
     let bytes = disk::read(path).map_err(|error| unreadable(path, &error))?;
+    if bytes.starts_with(TRACE) {
+        let message = "is a trace; `starl replay`, `view`, `verify` and `diagram` read traces";
+        return Err(Failure::file(path, message));
+    }
     let text = file::text(&bytes).map_err(|error| unreadable(path, &error))?;
     Ok(text.to_string())
 }

@@ -26,6 +26,8 @@ struct Judged {
     header: Header,
     setting: Setting,
     watch: Watch,
+    /// The names of robots that joined.
+    joined: Vec<String>,
     /// Violations of properties that were watched on the running programs, as the host recorded them.
     recorded: Vec<Violation>,
     records: u64,
@@ -67,6 +69,7 @@ fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
     let laws = simulated.map_or_else(Vec::new, |run| laws::of(run.scenario()));
     let mut steps = Steps::new(&setting, laws);
     let mut recorded = Vec::new();
+    let mut joined = Vec::new();
     let (mut records, mut end, mut cut) = (0, Time::ZERO, None);
     for record in &mut reader {
         let record = match record {
@@ -79,6 +82,11 @@ fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
         };
         records += 1;
         end = end.max(record.at);
+        if let Event::Intervention(what) = &record.event
+            && let Intervention::Join { name, .. } = &**what
+        {
+            joined.push(name.clone());
+        }
         if let Event::Violated { property, text } = &record.event {
             if setting.monitored.contains(property) {
                 recorded.push(violation(&record, property, text));
@@ -96,6 +104,7 @@ fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
         watch: steps.finish(end),
         header,
         setting,
+        joined,
         recorded,
         records,
         end,

@@ -74,6 +74,9 @@ impl Trial {
 
 fn unreached(run: &Run) -> String {
     let progress = run.simulation().progress();
+    if progress.up == 0 {
+        return "no robot is left".into();
+    }
     format!(
         "{} of {} robots that are up have finished within {}",
         progress.finished,

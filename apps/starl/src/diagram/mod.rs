@@ -10,7 +10,7 @@ mod story;
 #[cfg(test)]
 mod tests;
 
-use crate::args::DiagramArguments;
+use crate::args::{ChangeArguments, DiagramArguments};
 use crate::console;
 use crate::failure::Failure;
 use crate::output::{Output, identity};
@@ -55,6 +55,11 @@ pub fn diagram(arguments: &DiagramArguments, registry: &Registry) -> Result<bool
     let target = Path::new(&arguments.target);
     let Diagram(drawing) = if target.extension().is_some_and(|suffix| suffix == "mcap") {
         refuse_to_overwrite(&arguments.out, target)?;
+        if arguments.seed.is_some() || arguments.changes != ChangeArguments::default() {
+            let message = "is drawn as it was recorded; --seed, --scenario, --robots, --duration, --set and --faults \
+                           are for runs";
+            return Err(Failure::file(target, message));
+        }
         of_trace(target, &extent, registry)?
     } else {
         let seed = arguments.seed.clone();

@@ -40,9 +40,15 @@ pub fn within(arguments: &ExploreArguments) -> Result<Duration, Failure> {
 }
 
 fn duration(option: &str, text: &str) -> Result<Duration, Failure> {
-    read::duration(text)
-        .filter(|span| !span.is_zero())
-        .ok_or_else(|| Failure(format!("{option}: give a time above zero, such as 500ms")))
+    match read::duration(text) {
+        Some(span) if !span.is_zero() => Ok(span),
+        Some(_) => Err(Failure(format!(
+            "{option}: give a time above zero, such as 500ms"
+        ))),
+        None => Err(Failure(format!(
+            "{option} {text}: is not a time; write one such as 500ms or 2s"
+        ))),
+    }
 }
 
 fn ticks(time: Duration, tick: Duration) -> Result<u16, Failure> {

@@ -15,7 +15,9 @@ mod replay;
 use crate::args::{ExploreArguments, LogArguments, PageArguments, RunArguments};
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::outputs::refuse_to_overwrite;
 use crate::run::stop_on_interrupt;
+use crate::target::Selection;
 use crate::{console, json, target};
 use account::Account;
 use progress::Progress;
@@ -52,7 +54,14 @@ fn explore(
     arguments: &ExploreArguments,
     registry: &Registry,
 ) -> Result<ExitCode, Failure> {
-    let application = target::read(&as_run(target, arguments), registry)?.application;
+    let Selection {
+        application, files, ..
+    } = target::read(&as_run(target, arguments), registry)?;
+    let outputs = [
+        ("--save", arguments.save.as_deref()),
+        ("--diagram", arguments.diagram.as_deref()),
+    ];
+    refuse_to_overwrite(&outputs, &files)?;
     let recording = Recording {
         robots: robots(arguments, &application)?,
         bounds: bounds::read(arguments)?,

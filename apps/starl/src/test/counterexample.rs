@@ -76,11 +76,18 @@ impl Counterexample {
         let Some(smaller) = smaller else {
             return Ok(counterexample);
         };
-        save(&path, smaller.text.as_bytes())?;
+        // The report says how to find the run again, and is not lost with the file.
+        if let Err(failure) = save(&path, smaller.text.as_bytes()) {
+            console::error(&failure.to_string());
+            counterexample.trials = 0;
+            return Ok(counterexample);
+        }
         let picture = path.with_extension("svg");
         let drawn = diagram::of_run(&smaller.application, &diagram::Extent::default())?;
-        save(&picture, &drawn.svg())?;
-        counterexample.diagram = Some(picture);
+        match save(&picture, &drawn.svg()) {
+            Ok(()) => counterexample.diagram = Some(picture),
+            Err(failure) => console::error(&failure.to_string()),
+        }
         counterexample.text = smaller.trial.text;
         counterexample.sizes[1] = Size::of(&smaller.scenario);
         counterexample.trials = smaller.trials;

@@ -60,16 +60,18 @@ impl Reason {
             Reason::Unused => "the trace does not use its primitive",
             Reason::LiveProgram => "it needs the running program",
             Reason::CutShort => "the trace ends before its bound is over",
-            Reason::MissingRecords => "the trace has no records of true poses",
+            Reason::MissingRecords => "the trace has no records of what it is judged by",
         }
     }
 }
 
 impl Account {
     pub(super) fn of(path: &Path, judged: &Judged) -> Account {
-        let name = |robot: RobotId| match judged.header.robots.get(robot.index()) {
-            Some(entry) => entry.name.clone(),
-            None => robot.to_string(),
+        let name = |robot: RobotId| {
+            let started = judged.header.robots.iter().map(|entry| &entry.name);
+            let mut names = started.chain(&judged.joined);
+            let name = names.nth(robot.index());
+            name.map_or_else(|| robot.to_string(), String::clone)
         };
         let is_cut = judged.cut.is_some();
         let lost = judged.setting.unrecorded.iter();
@@ -84,6 +86,12 @@ impl Account {
         let verdicts = judged.watch.verdicts().into_iter();
         let checked = verdicts.map(|verdict| {
             let until = if verdict.to_the_end { end } else { lost };
+            // The simulator records everything that happens.
+            let has_evidence = verdict.has_evidence || judged.setting.simulated;
+            let verdict = Verdict {
+                has_evidence,
+                ..verdict
+            };
             Property::of(verdict, is_cut, until, name)
         });
         let monitored = judged.setting.monitored.iter();

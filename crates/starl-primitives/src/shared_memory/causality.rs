@@ -37,17 +37,23 @@ pub(super) type Held = BTreeMap<u64, HeldWrite>;
 #[derive(Clone, Debug)]
 pub(super) struct HeldWrite {
     pub write: Write,
+    /// The dependencies that were not shown when they were last looked up: most writes lack few of many.
+    missing: Vec<Dependency>,
     /// Since when writes of this element have been held back, by the robot's own clock.
     pub since: Time,
 }
 
 impl Store {
-    /// Whether all of these, or later ones, are shown.
-    pub fn covers(&self, depends: &[Dependency]) -> bool {
-        depends.iter().all(|dependency| {
-            let shown = self.at(dependency.key);
-            shown.is_some_and(|element| element.stamp >= dependency.stamp)
-        })
+    /// Whether this write, or a later one, is shown.
+    fn shows(&self, dependency: &Dependency) -> bool {
+        let shown = self.at(dependency.key);
+        shown.is_some_and(|element| element.stamp >= dependency.stamp)
+    }
+
+    /// Those of these that are not shown.
+    fn lacks(&self, depends: &[Dependency]) -> Vec<Dependency> {
+        let lacking = depends.iter().filter(|dependency| !self.shows(dependency));
+        lacking.copied().collect()
     }
 
     /// The dependencies of a write made now, except the element that it replaces.
@@ -77,7 +83,8 @@ impl SharedMemory {
     /// Holds a write back if a dependency is missing; otherwise returns it.
     pub(super) fn hold(&mut self, write: Write, now: Time) -> Option<Write> {
         let depends = write.depends.as_deref().unwrap_or_default();
-        if self.store.covers(depends) {
+        let missing = self.store.lacks(depends);
+        if missing.is_empty() {
             return Some(write);
         }
         for dependency in depends {
@@ -93,8 +100,20 @@ impl SharedMemory {
         };
         let has_room = self.held.len() < self.options.most_elements;
         match self.held.get_mut(&key) {
-            Some(held) if order(&held.write) < order(&write) => held.write = write,
-            None if has_room => drop(self.held.insert(key, HeldWrite { write, since: now })),
+            Some(held) if order(&held.write) < order(&write) => {
+                (held.write, held.missing) = (write, missing);
+            }
+            None if has_room => {
+                let since = now;
+                self.held.insert(
+                    key,
+                    HeldWrite {
+                        write,
+                        missing,
+                        since,
+                    },
+                );
+            }
             _ => {}
         }
         None
@@ -113,9 +132,8 @@ impl SharedMemory {
             return false;
         }
         let (key, held) = candidates[robot.random().below(candidates.len() as u32) as usize];
-        let depends = held.write.depends.iter().flatten();
-        let missing = depends.filter(|&dependency| !self.store.covers(&[*dependency]));
-        let wanted = core::iter::once(key).chain(missing.map(|dependency| dependency.key));
+        let missing = self.store.lacks(&held.missing);
+        let wanted = core::iter::once(key).chain(missing.iter().map(|dependency| dependency.key));
         let (writer, wanted) = (held.write.stamp.writer, wanted.collect());
         let is_urgent = held.since > late;
         self.send_wanted(robot, writer, wanted);
@@ -125,26 +143,25 @@ impl SharedMemory {
     /// The held writes whose dependencies are now complete. They must be shown together: two of them may depend on each
     /// other, if one is later than the other's dependency.
     pub(super) fn take_released(&mut self) -> Vec<Write> {
-        let held = self.held.iter();
-        let mut ready: BTreeMap<u64, Stamp> =
-            held.map(|(&key, held)| (key, held.write.stamp)).collect();
-        loop {
-            let is_covered = |needed: &Dependency| {
-                let shown = self.store.at(needed.key).map(|element| element.stamp);
-                shown.max(ready.get(&needed.key).copied()) >= Some(needed.stamp)
-            };
-            let lacks = |key: &u64| {
-                let held = self.held.get(key);
-                let depends = held.and_then(|held| held.write.depends.as_ref());
-                !depends.into_iter().flatten().all(is_covered)
-            };
-            let lacking: Vec<u64> = ready.keys().copied().filter(lacks).collect();
-            if lacking.is_empty() {
-                break;
+        for held in self.held.values_mut() {
+            held.missing.retain(|missing| !self.store.shows(missing));
+        }
+        let mut ready = self.ready();
+        let lacks = |key: &u64| {
+            let depends = self
+                .held
+                .get(key)
+                .and_then(|held| held.write.depends.as_ref());
+            let mut depends = depends.into_iter().flatten();
+            !depends.all(|needed| self.store.shows(needed) || is_in(&ready, needed))
+        };
+        // What was shown once may be missing again after a corruption.
+        if ready.keys().any(lacks) {
+            for held in self.held.values_mut() {
+                let depends = held.write.depends.as_deref();
+                held.missing = self.store.lacks(depends.unwrap_or_default());
             }
-            for key in lacking {
-                ready.remove(&key);
-            }
+            ready = self.ready();
         }
         let released = ready.into_keys();
         released
@@ -152,4 +169,34 @@ impl SharedMemory {
             .map(|held| held.write)
             .collect()
     }
+
+    /// The held writes that lack each other only.
+    fn ready(&self) -> BTreeMap<u64, Stamp> {
+        let held = self.held.iter();
+        let mut ready: BTreeMap<u64, Stamp> =
+            held.map(|(&key, held)| (key, held.write.stamp)).collect();
+        loop {
+            let lacks = |key: &u64| {
+                let missing = self.held.get(key).map(|held| &held.missing);
+                !missing
+                    .into_iter()
+                    .flatten()
+                    .all(|needed| is_in(&ready, needed))
+            };
+            let lacking: Vec<u64> = ready.keys().copied().filter(lacks).collect();
+            if lacking.is_empty() {
+                return ready;
+            }
+            for key in lacking {
+                ready.remove(&key);
+            }
+        }
+    }
+}
+
+/// Whether a write, or a later one, is among these.
+fn is_in(writes: &BTreeMap<u64, Stamp>, needed: &Dependency) -> bool {
+    writes
+        .get(&needed.key)
+        .is_some_and(|stamp| *stamp >= needed.stamp)
 }

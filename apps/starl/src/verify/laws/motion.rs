@@ -46,6 +46,8 @@ struct Bounds {
 struct Follower {
     bounds: Bounds,
     last: Option<(Time, Pose)>,
+    /// When it was last put somewhere from outside. Its pose at that time is that of the step before, moved.
+    placed: Option<Time>,
     /// The mean velocity of the interval that ended with the last pose, and the interval's length, seconds.
     velocity: Option<(Point, f64)>,
     /// When the body was last stopped by something.
@@ -106,10 +108,10 @@ impl Motion {
         }
     }
 
-    fn steered(&mut self, what: &Intervention) {
+    fn steered(&mut self, at: Time, what: &Intervention) {
         match what {
-            Intervention::Push { robot, .. } => self.forget(*robot),
-            Intervention::Leave(robots) => robots.iter().for_each(|&robot| self.forget(robot)),
+            Intervention::Push { robot, .. } => self.forget(*robot, at),
+            Intervention::Leave(robots) => robots.iter().for_each(|&robot| self.forget(robot, at)),
             Intervention::Join { like, pose, .. } => {
                 let like = self.robots.get(like.index());
                 self.joining
@@ -119,9 +121,10 @@ impl Motion {
         }
     }
 
-    fn forget(&mut self, robot: RobotId) {
+    fn forget(&mut self, robot: RobotId, at: Time) {
         if let Some(follower) = self.robots.get_mut(robot.index()) {
             (follower.last, follower.velocity) = (None, None);
+            follower.placed = Some(at);
         }
     }
 }
@@ -139,7 +142,7 @@ impl Checker for Motion {
         let Record { at, robot, event } = record;
         let Some(robot) = *robot else {
             if let Event::Intervention(what) = event {
-                self.steered(what);
+                self.steered(*at, what);
             }
             return;
         };
@@ -149,7 +152,10 @@ impl Checker for Motion {
             let mut joining = self.joining.iter();
             if let Some(found) = joining.position(|(_, place)| *place == pose.position) {
                 let bounds = self.joining.swap_remove(found).0;
-                self.robots.push(Follower::new(bounds));
+                self.robots.push(Follower {
+                    placed: Some(*at),
+                    ..Follower::new(bounds)
+                });
             }
         }
         let Some(follower) = self.robots.get_mut(robot.index()) else {
@@ -170,6 +176,7 @@ impl Follower {
         Follower {
             bounds,
             last: None,
+            placed: None,
             velocity: None,
             met: None,
             falls_until: None,
@@ -177,6 +184,9 @@ impl Follower {
     }
 
     fn moved(&mut self, robot: RobotId, at: Time, pose: Pose, violations: &mut Vec<Violation>) {
+        if self.placed == Some(at) {
+            return;
+        }
         let Some((before, last)) = self.last.replace((at, pose)) else {
             return;
         };
