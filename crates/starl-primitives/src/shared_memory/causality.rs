@@ -155,7 +155,7 @@ impl SharedMemory {
             let mut depends = depends.into_iter().flatten();
             !depends.all(|needed| self.store.shows(needed) || is_in(&ready, needed))
         };
-        // What was shown once may be missing again after a corruption.
+        // A corruption may have removed a write that was shown.
         if ready.keys().any(lacks) {
             for held in self.held.values_mut() {
                 let depends = held.write.depends.as_deref();
