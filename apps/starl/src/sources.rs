@@ -194,7 +194,7 @@ pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
     (sources, failures)
 }
 
-/// What a scenario in place of a program is told.
+/// The message for a scenario in place of a program.
 pub const SCENARIO: &str = "is a scenario, not a program; `starl run` reads and checks it";
 
 /// Whether a file is a scenario, by its name.
