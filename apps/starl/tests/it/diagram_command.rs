@@ -55,7 +55,21 @@ fn a_part_of_a_run_can_be_drawn_as_png() {
 fn bad_input_is_reported() {
     let folder = folder("diagram_bad_input");
     file(&folder, "small.toml", support::SMALL);
-    let cases: [(&[&str], &str); 3] = [
+    let recorded = ["run", "small.toml", "--quiet", "--trace", "run.mcap"];
+    assert_eq!(status(&starl(&folder, &recorded)), 0);
+    let cases: [(&[&str], &str); 5] = [
+        (
+            &[
+                "diagram",
+                "run.mcap",
+                "--out",
+                "a.svg",
+                "--set",
+                "network.los=7",
+            ],
+            "is drawn as it was recorded",
+        ),
+        (&["run", "run.mcap"], "is a trace"),
         (
             &["diagram", "small.toml", "--out", "run.jpg"],
             "the name must end in .svg or .png",

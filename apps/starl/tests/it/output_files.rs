@@ -83,6 +83,43 @@ fn inputs_of_a_run_are_not_overwritten() {
 }
 
 #[test]
+fn neither_a_drawing_nor_a_counterexample_takes_the_place_of_its_program() {
+    let folder = folder("output_program");
+    let program = "program Small\n\nn: Int = 0\n\ngo()\n    pre n < 3\n    eff n += 1\n\nalways small: n < 2\n";
+    file(&folder, "small.starl", program);
+    for arguments in [
+        ["explain", "small.starl", "--output", "small.starl"],
+        ["explore", "small.starl", "--save", "./small.starl"],
+        ["explore", "small.starl", "--save", "small.starl"],
+    ] {
+        let output = starl(&folder, &arguments);
+        assert_eq!(status(&output), 2, "{arguments:?}");
+        let told = stderr(&output);
+        assert!(told.contains("the run reads this file"), "{told}");
+    }
+    let kept = fs::read_to_string(folder.join("small.starl")).expect("it is still there");
+    assert_eq!(kept, program);
+    assert_eq!(names(&folder), ["small.starl"]);
+}
+
+#[test]
+fn a_counterexample_that_cannot_be_saved_leaves_the_report() {
+    let folder = folder("output_report");
+    let program = "program Small\n\nn: Int = 0\n\ngo()\n    pre n < 3\n    eff n += 1\n\nalways small: n < 2\n";
+    file(&folder, "small.starl", program);
+    // The name of a counterexample is longer, too long for a file.
+    let target = format!("{}.toml", "y".repeat(240));
+    let scenario = "program = \"small.starl\"\n[[robots]]\nmodel = \"create\"\n";
+    file(&folder, &target, scenario);
+    let arguments = ["test", &target, "--profile", "calm", "--seeds", "1"];
+    let output = starl(&folder, &arguments);
+    let (told, trouble) = (stdout(&output), stderr(&output));
+    assert_eq!(status(&output), 1, "{trouble}");
+    assert!(trouble.contains("cannot be written"), "{trouble}");
+    assert!(told.contains("to find it again: "), "{told}");
+}
+
+#[test]
 fn a_read_only_file_is_kept() {
     let folder = folder("output_read_only");
     let path = file(&folder, "a.mcap", "a trace of before");

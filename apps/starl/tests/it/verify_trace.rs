@@ -136,6 +136,62 @@ fn verdicts_are_those_of_the_run() {
 }
 
 #[test]
+fn pushes_between_steps_break_no_law_and_robots_that_join_are_named() {
+    let folder = folder("verify_steered");
+    let push = |at: &str, robot: &str, by: &str| {
+        format!("[[event]]\nat = \"{at}\"\nkind = \"push\"\nrobot = \"{robot}\"\nby = {by}\n")
+    };
+    let events = [
+        push("2.012s", "robot0", "[0.05, 0.0]"),
+        push("3.001s", "robot1", "[0.05, 0.0]"),
+        "[[event]]\nat = \"1.505s\"\nkind = \"join\"\nlike = \"robot0\"\nname = \"late\"\nposition = [2, 2]\n".into(),
+        push("1.507s", "late", "[-4, -4]"),
+    ];
+    file(&folder, "events.toml", &events.concat());
+    let arguments = [
+        "run",
+        "crossing",
+        "--faults",
+        "events.toml",
+        "--json",
+        "--trace",
+        "a.mcap",
+    ];
+    let run = json(&starl(&folder, &arguments));
+    let account = json(&starl(&folder, &["verify", "a.mcap", "--json"]));
+    assert_eq!(entry(&account, "speed_limit")["verdict"], "holds");
+    assert_eq!(entry(&account, "acceleration_limit")["verdict"], "holds");
+    let (live, read) = (entry(&run, "no_collision"), entry(&account, "no_collision"));
+    assert_eq!(
+        live["first"]["robots"],
+        serde_json::json!(["robot2", "late"])
+    );
+    assert_eq!(read["first"], live["first"]);
+}
+
+#[test]
+fn a_run_in_which_nothing_arrives_is_judged_by_its_trace() {
+    let folder = folder("verify_silence");
+    let arguments = [
+        "run",
+        "intersection",
+        "--set",
+        "network.loss=1",
+        "--duration",
+        "10s",
+        "--quiet",
+        "--trace",
+        "a.mcap",
+    ];
+    starl(&folder, &arguments);
+    let account = json(&starl(&folder, &["verify", "a.mcap", "--json"]));
+    assert_eq!(
+        entry(&account, "failure_detector.accuracy")["verdict"],
+        "holds"
+    );
+}
+
+#[test]
 fn a_violation_is_shown_with_its_place_and_makes_the_status_1() {
     let folder = folder("verify_violated");
     let records = [
