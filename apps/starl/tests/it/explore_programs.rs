@@ -205,7 +205,10 @@ fn bad_input_is_refused() {
         (&["nothing.toml"], "nothing.toml"),
         (&[&target, "--robots", "3"], "the scenario has 2 robots"),
         (&[&target, "--within", "0s"], "--within: give a time"),
-        (&[&target, "--tick", "long"], "--tick: give a time"),
+        (
+            &[&target, "--tick", "5"],
+            "--tick 5: is not a time; write one",
+        ),
         (&[&target, "--tick", "1ms", "--time", "1000s"], "--time"),
     ];
     for (arguments, message) in refused {

@@ -85,7 +85,7 @@ fn inputs_of_a_run_are_not_overwritten() {
 #[test]
 fn neither_a_drawing_nor_a_counterexample_takes_the_place_of_its_program() {
     let folder = folder("output_program");
-    let program = "program Small\n\nn: Int = 0\n\ngo()\n    pre n < 3\n    eff n += 1\n\nalways small: n < 2\n";
+    let program = "program Small\n\nn: Int = 0\n\nstep: enum {begin, end} = begin\n\ngo()\n    pre n < 3\n    eff n += 1\n\nalways small: n < 2\n";
     file(&folder, "small.starl", program);
     for arguments in [
         ["explain", "small.starl", "--output", "small.starl"],
