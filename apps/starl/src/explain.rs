@@ -23,8 +23,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<bool, Failure> {
     }
     let source = find(&arguments.program)?;
     let examined = examine(&source, |_| Vec::new())?;
-    let mut read = examined.paths();
-    read.extend(source.identity());
+    let read = examined.paths();
     sources::fail(examined.failures)?;
     if examined.files.iter().any(|file| file.has_errors()) {
         for file in &examined.files {

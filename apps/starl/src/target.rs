@@ -9,7 +9,7 @@ use starl_catalog::examples::{self, DEFAULT_SCENARIO, EXAMPLES};
 use starl_catalog::language::{Findings, SUFFIX};
 use starl_catalog::programs::Registry;
 use starl_catalog::{Application, Refusal};
-use starl_core::{FileError, file};
+use starl_core::{Duration, FileError, file};
 use starl_sim::read::{Inputs, Override, Request, Source, suggest};
 use std::path::{Path, PathBuf};
 
@@ -234,6 +234,15 @@ pub fn no_example(name: &str, other: &str) -> Failure {
     Failure(format!(
         "{name}: there is no example or {other} called this; {help}"
     ))
+}
+
+/// A time as scenarios have it, from an option.
+pub fn span(option: &str, text: &str) -> Result<Duration, Failure> {
+    starl_sim::read::duration(text).ok_or_else(|| {
+        Failure(format!(
+            "{option} {text}: is not a time; write one such as 500ms or 2s"
+        ))
+    })
 }
 
 /// How traces begin, as all files in MCAP do.

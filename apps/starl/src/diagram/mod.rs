@@ -47,9 +47,11 @@ impl Diagram {
 /// Draws what the arguments say.
 pub fn diagram(arguments: &DiagramArguments, registry: &Registry) -> Result<bool, Failure> {
     let picture = Picture::given_as(&arguments.out, "--out")?;
+    let span =
+        |option: &str, text: Option<&str>| text.map(|text| target::span(option, text)).transpose();
     let extent = Extent {
-        last: span(arguments.last.as_deref(), "--last")?,
-        until: span(arguments.until.as_deref(), "--until")?.map(|span| Time::ZERO + span),
+        last: span("--last", arguments.last.as_deref())?,
+        until: span("--until", arguments.until.as_deref())?.map(|span| Time::ZERO + span),
     };
     let (output, file) = Output::create(&arguments.out)?;
     let target = Path::new(&arguments.target);
@@ -126,17 +128,6 @@ fn of_trace(path: &Path, extent: &Extent, registry: &Registry) -> Result<Diagram
         }
     }
     Ok(Diagram(scene::draw(&story, extent)))
-}
-
-/// A time as scenarios have it.
-fn span(text: Option<&str>, option: &str) -> Result<Option<Duration>, Failure> {
-    let Some(text) = text else { return Ok(None) };
-    match starl_sim::read::duration(text) {
-        Some(span) => Ok(Some(span)),
-        None => Err(Failure(format!(
-            "{option} {text}: is not a time; write one such as 500ms or 2s"
-        ))),
-    }
 }
 
 fn refuse_to_overwrite(out: &Path, read: &Path) -> Result<(), Failure> {

@@ -2,9 +2,9 @@
 
 use crate::args::ExploreArguments;
 use crate::failure::Failure;
+use crate::target;
 use starl_core::Duration;
 use starl_explore::{Bounds, Clocks};
-use starl_sim::read;
 
 /// Reads them.
 pub fn read(arguments: &ExploreArguments) -> Result<Bounds, Failure> {
@@ -40,14 +40,11 @@ pub fn within(arguments: &ExploreArguments) -> Result<Duration, Failure> {
 }
 
 fn duration(option: &str, text: &str) -> Result<Duration, Failure> {
-    match read::duration(text) {
-        Some(span) if !span.is_zero() => Ok(span),
-        Some(_) => Err(Failure(format!(
+    match target::span(option, text)? {
+        Duration::ZERO => Err(Failure(format!(
             "{option}: give a time above zero, such as 500ms"
         ))),
-        None => Err(Failure(format!(
-            "{option} {text}: is not a time; write one such as 500ms or 2s"
-        ))),
+        span => Ok(span),
     }
 }
 

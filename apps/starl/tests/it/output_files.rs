@@ -82,11 +82,14 @@ fn inputs_of_a_run_are_not_overwritten() {
     assert_eq!(names(&folder), ["faults.toml", "small.toml", "some.wpt"]);
 }
 
+/// A program that violates its property.
+const VIOLATED: &str = "program Small\n\nn: Int = 0\n\nstep: enum {begin, end} = begin\n\ngo()\n    pre n < 3\n    \
+                        eff n += 1\n\nalways small: n < 2\n";
+
 #[test]
 fn neither_a_drawing_nor_a_counterexample_takes_the_place_of_its_program() {
     let folder = folder("output_program");
-    let program = "program Small\n\nn: Int = 0\n\nstep: enum {begin, end} = begin\n\ngo()\n    pre n < 3\n    eff n += 1\n\nalways small: n < 2\n";
-    file(&folder, "small.starl", program);
+    file(&folder, "small.starl", VIOLATED);
     for arguments in [
         ["explain", "small.starl", "--output", "small.starl"],
         ["explore", "small.starl", "--save", "./small.starl"],
@@ -98,15 +101,14 @@ fn neither_a_drawing_nor_a_counterexample_takes_the_place_of_its_program() {
         assert!(told.contains("the run reads this file"), "{told}");
     }
     let kept = fs::read_to_string(folder.join("small.starl")).expect("it is still there");
-    assert_eq!(kept, program);
+    assert_eq!(kept, VIOLATED);
     assert_eq!(names(&folder), ["small.starl"]);
 }
 
 #[test]
 fn a_counterexample_that_cannot_be_saved_leaves_the_report() {
     let folder = folder("output_report");
-    let program = "program Small\n\nn: Int = 0\n\ngo()\n    pre n < 3\n    eff n += 1\n\nalways small: n < 2\n";
-    file(&folder, "small.starl", program);
+    file(&folder, "small.starl", VIOLATED);
     // The name of a counterexample is longer, too long for a file.
     let target = format!("{}.toml", "y".repeat(240));
     let scenario = "program = \"small.starl\"\n[[robots]]\nmodel = \"create\"\n";

@@ -98,9 +98,10 @@ impl Total {
             && let Some(entry) = member.log.get(member.applied + 1)
         {
             member.applied += 1;
-            let has_voted = member.roll.last(me).is_some();
+            let is_let_in = matches!(&entry.what, What::Voters(voters) if voters.contains(&me))
+                && member.roll.last(me).is_none();
             member.roll.advance(&entry.what);
-            if !has_voted && member.roll.last(me).is_some() {
+            if is_let_in {
                 robot.report(self.port, BroadcastEvent::Voter);
             }
             let What::Message {
