@@ -224,8 +224,12 @@ export class Run {
     return this.client.ask<Uint8Array<ArrayBuffer>>({ trace: true });
   }
 
-  /** Asks for the present report, its digest up to date; false if another run was opened meanwhile. */
+  /**
+   * Asks for the present report, its digest up to date; false if another run is or was opened meanwhile, or if it is
+   * recorded, whose report is always up to date.
+   */
   async refreshReport(): Promise<boolean> {
+    if (this.opening.value || !this.live.value) return false;
     const asked = this.opened.value;
     const gone = () => this.opening.value || this.opened.value !== asked;
     try {
