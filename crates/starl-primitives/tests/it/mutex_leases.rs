@@ -38,6 +38,25 @@ fn resources_of_a_crashed_robot_are_free_after_its_lease() {
 }
 
 #[test]
+fn a_robot_that_can_send_but_not_hear_blocks_no_majority() {
+    for seed in 0..20 {
+        let mut world = world(3, seed, Wire::perfect(), false);
+        world.run_for(SECOND * 5);
+        world.wire.cut.extend([(0, 2), (1, 2)]);
+        world.command(2, acquire(&["a"]));
+        world.run_for(SECOND / 10);
+        world.command(0, acquire(&["a"]));
+        world.run_for(SECOND * 20);
+        assert!(mutex(&world, 0).holds(&set(&["a"])), "seed {seed}");
+        assert!(mutex(&world, 2).is_waiting() && mutex(&world, 2).failed());
+        world.wire.cut.clear();
+        world.command(0, release(&["a"]));
+        world.run_for(SECOND * 5);
+        assert!(mutex(&world, 2).holds(&set(&["a"])), "seed {seed}");
+    }
+}
+
+#[test]
 fn copies_of_the_requests_of_a_holder_that_has_crashed_do_not_keep_its_lease() {
     let wire = Wire {
         duplication: 1.0,

@@ -120,6 +120,7 @@ impl Arbitration {
         let mut post = Post::default();
         if let Some(request) = &self.request
             && !request.is_entered
+            && request.is_sent()
             && request.has_asked(peer)
         {
             post.send(peer, Packet::Request(request.wish(peer, common)));
@@ -150,7 +151,7 @@ impl Arbitration {
         let asks = self
             .request
             .as_ref()
-            .filter(|request| is_lease(common) || !request.is_entered);
+            .filter(|request| (is_lease(common) || !request.is_entered) && request.is_sent());
         if asks.is_some_and(|request| request.is_overdue(robot.now(), longest)) {
             self.repeat(common, robot);
         }
