@@ -72,6 +72,12 @@ impl Scene<'_, '_> {
         self.others.len().div_ceil(2) + 1
     }
 
+    /// Whether this robot may hear from a majority of the participants.
+    pub fn trusts_majority(&self) -> bool {
+        let trusted = self.others.iter().filter(|&&peer| !self.is_suspected(peer));
+        trusted.count() + 1 >= self.majority()
+    }
+
     pub fn is_suspected(&self, peer: RobotId) -> bool {
         self.suspects.contains(&peer)
     }

@@ -1,7 +1,7 @@
 //! Where the network falls apart: with leases only the part with a majority has a leader, with ballots and
 //! bully each part has one; and when the parts meet again all agree.
 
-use crate::harness::elector::{ALGORITHMS, Elector, agreed, by, election, judge, leaders};
+use crate::harness::elector::{ALGORITHMS, Elector, RESIGN, agreed, by, election, judge, leaders};
 use crate::harness::{Wire, World};
 use starl_core::Duration;
 use starl_primitives::election::Algorithm;
@@ -88,6 +88,25 @@ fn with_leases_a_leader_that_is_cut_off_stops_before_another_leads() {
         world.run_for(SECOND * 5);
         assert_eq!(agreed(&world, &ALL), second);
         assert_eq!(judge(&world, &[]).last().map(|&(_, leader)| leader), second);
+    }
+}
+
+#[test]
+fn with_leases_a_robot_that_can_send_but_not_hear_holds_no_votes() {
+    for seed in 0..50 {
+        let mut world = world(seed, Algorithm::Leases);
+        let leader = agreed(&world, &ALL).unwrap() as usize;
+        let deaf = (leader + 1) % ALL.len();
+        let hears = |robot: usize| robot != leader && robot != deaf;
+        let rest: Vec<usize> = ALL.into_iter().filter(|&robot| hears(robot)).collect();
+        for from in ALL {
+            world.wire.cut.insert((from as u32, deaf as u32));
+        }
+        world.run_for(SECOND * 10);
+        world.command(leader, RESIGN);
+        world.run_for(SECOND * 15);
+        assert!(agreed(&world, &rest).is_some(), "seed {seed}");
+        judge(&world, &[]);
     }
 }
 

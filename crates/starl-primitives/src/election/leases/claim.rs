@@ -27,9 +27,10 @@ pub(super) struct Standing {
 }
 
 impl Leases {
-    /// Whether this robot would stand, in time.
+    /// Whether this robot would stand, in time. One that hears too few others to win may still be heard by them, and
+    /// would take votes of which it never learns.
     pub(super) fn may_stand(&self, scene: &Scene<'_, '_>) -> bool {
-        scene.stands && self.remembers() && self.shown.is_none()
+        scene.stands && self.remembers() && self.shown.is_none() && scene.trusts_majority()
     }
 
     /// When it would.

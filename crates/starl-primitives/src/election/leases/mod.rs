@@ -15,7 +15,7 @@
 //! - at most one leader at the same true time: clocks keep to the options' drift;
 //! - epochs grow from leader to leader: the same, and no majority loses its memory at once. If one does, clocks must
 //!   differ by less than a lease.
-//! - Suspicions of failure detectors do not matter.
+//! - Suspicions of failure detectors do not matter for these. A robot that suspects a majority does not stand.
 
 mod claim;
 mod recovery;
@@ -245,6 +245,9 @@ impl Rules for Leases {
             if was_own {
                 self.give_up(scene);
             }
+        }
+        if !scene.trusts_majority() && !self.leads(scene) {
+            self.give_up(scene);
         }
         match &self.claim {
             Some(claim) if now >= claim.repeat_at => self.ask(scene),
