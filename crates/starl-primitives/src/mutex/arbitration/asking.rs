@@ -30,7 +30,7 @@ fn renewal(left: Duration, belief: Duration) -> Duration {
 }
 
 impl Arbitration {
-    /// A request that waits for suspected robots goes on without them: by another quorum, or with leases not at all
+    /// A request that waits for suspected robots continues without them: by another quorum, or with leases not at all
     /// until a majority is trusted. A robot that hears too few others to get anything may still be heard by them, and
     /// each repetition would keep grants of which it does not know.
     pub fn avoid_suspects(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
