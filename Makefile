@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test module-and-check check unit portable wheel viewer python wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
+.PHONY: run setup test module-and-check check unit portable wheel viewer python wasm golden wasm-module page embedded site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -14,7 +14,12 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs. The page comes before the first build of the command, which contains it.
-test: setup module-and-check page unit portable wasm web python trace schema examples devices faults docs deny
+test: setup module-and-check page unit
+	$(MAKE) --no-print-directory --jobs=2 --output-sync $(WHOLE)
+
+# The parts that test the whole command run two at a time, since browsers, Python and devices often wait. Each shows its
+# output when it ends. The parts that never wait come last.
+WHOLE = web python devices wasm trace schema portable docs faults examples deny
 
 # One core links the page's module, and clippy uses the other.
 module-and-check: setup
@@ -91,18 +96,20 @@ python: wheel $(STARL)
 	cd apps/starl-py && $(abspath $(PYTHON_TESTS))/bin/mypy --strict python/starl tests
 	cd apps/starl-py && STARL=$(abspath $(STARL)) $(abspath $(PYTHON_TESTS))/bin/python -m pytest -q tests
 
-viewer: setup $(MODULE)
-	cd playground && npm run --silent embedded
+viewer: setup $(MODULE) embedded
 	mkdir -p $(VIEWER)
 	cp playground/embedded/viewer.html $(VIEWER)
 	gzip -9 -n < $(MODULE) > $(VIEWER)/starl.wasm.gz
 
 $(MODULE): wasm-module
 
-# The page in a real browser.
-web: page $(STARL)
-	cd playground && npm run --silent check && npm run --silent unit
+# The page as one file, inside notebooks.
+embedded: setup
 	cd playground && npm run --silent embedded
+
+# The page in a real browser.
+web: page embedded $(STARL)
+	cd playground && npm run --silent check && npm run --silent unit
 	cd playground && STARL=$(abspath $(STARL)) npm run --silent browser
 
 # Traces read with libraries that are not ours.
@@ -154,9 +161,9 @@ APPLICATIONS = race formation formation-space line intersection search flocking 
 # The primitives and the applications under every profile of faults; what goes wrong is kept in target/.
 # `make examples` runs the applications in calm.
 faults: $(STARL)
-	tools/workloads.sh $(STARL) tools/workloads.txt --seeds 25 --out target/faults
+	tools/workloads.sh $(STARL) tools/workloads.txt --seeds 10 --out target/faults
 	tools/workloads.sh $(STARL) tools/loads.txt --seeds 2 --profile swarm --out target/faults
-	tools/workloads.sh $(STARL) tools/storage.txt --seeds 25 --out target/faults
+	tools/workloads.sh $(STARL) tools/storage.txt --seeds 10 --out target/faults
 	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
 		--out target/faults
 	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults

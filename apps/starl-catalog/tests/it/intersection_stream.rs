@@ -24,6 +24,7 @@ fn all_get_through_in_calm() {
 }
 
 #[test]
+#[ignore = "takes half a minute without optimisation"]
 fn all_get_through_with_temporary_faults() {
     let profiles: [&[&str]; 3] = [
         &[
@@ -42,9 +43,6 @@ fn all_get_through_with_temporary_faults() {
 
 #[test]
 fn no_car_collides_with_a_broken_down_car() {
-    (1..=2).into_par_iter().for_each(|seed: u32| {
-        let seed = format!("seed={seed}");
-        let traffic = stream(&["fault_rates.crash=0.05/min", &seed, "duration=240s"]);
-        assert!(!traffic.stuck_at_the_end().is_empty(), "{seed}");
-    });
+    let traffic = stream(&["fault_rates.crash=0.05/min", "duration=240s"]);
+    assert!(!traffic.stuck_at_the_end().is_empty());
 }

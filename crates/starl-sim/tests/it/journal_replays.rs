@@ -197,7 +197,7 @@ fn over_faults_of_all_kinds() {
 
 #[test]
 fn at_any_number_of_threads_the_journal_is_the_same() {
-    let places: Vec<(f64, f64)> = (0..600)
+    let places: Vec<(f64, f64)> = (0..300)
         .map(|i| (f64::from(i % 30), f64::from(i / 30)))
         .collect();
     let mut scenario = scenario("differential", &places);
@@ -205,9 +205,9 @@ fn at_any_number_of_threads_the_journal_is_the_same() {
     let mut one = simulate(scenario.clone(), Busy::default());
     let mut many = simulate(scenario, Busy::default());
     many.set_parallel(true);
-    let recording = recorded(&mut one, 0.4);
-    assert_eq!(recording, recorded(&mut many, 0.4));
-    for robot in [0, 255, 256, 599] {
+    let recording = recorded(&mut one, 0.25);
+    assert_eq!(recording, recorded(&mut many, 0.25));
+    for robot in [0, 255, 256, 299] {
         replay(&recording, RobotId(robot), Box::new(Busy::default()));
     }
 }
