@@ -78,7 +78,7 @@ impl ProgramMonitor {
             .get_or_insert_with(|| (witness.robots().into(), witness.way_points().into()));
         for robot in self.robots.iter().copied() {
             let program = members.program(robot);
-            if program.is_some_and(|program| program.resets() > 0)
+            if let Some(place) = program.and_then(RobotProgram::failed_check)
                 && **robots == *witness.robots()
                 && **way_points == *witness.way_points()
                 && self.unsound.insert(robot)
@@ -88,8 +88,8 @@ impl ProgramMonitor {
                     at: now,
                     robots: Vec::from([robot]),
                     text: format!(
-                        "robot {robot}: a check was false although no fault had overwritten variables; \
-                         the event `reset` names it"
+                        "robot {robot}: the check at {place} was false although no fault had overwritten \
+                         variables, and the program started again"
                     ),
                 });
             }

@@ -17,7 +17,7 @@ use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
@@ -51,8 +51,8 @@ pub struct RobotProgram {
     rests: bool,
     /// When each action may fire.
     paces: Box<[Pace]>,
-    /// See [`RobotProgram::resets`].
-    resets: u32,
+    /// See [`RobotProgram::failed_check`].
+    failed_check: Option<u32>,
     /// See [`RobotProgram::target`].
     target: Option<Point>,
 }
@@ -92,14 +92,14 @@ impl RobotProgram {
             phase: Phase::New,
             rests: false,
             paces: actions.iter().map(|_| Pace::default()).collect(),
-            resets: 0,
+            failed_check: None,
             target: None,
         })
     }
 
-    /// How often it has started again because a check was false.
-    pub fn resets(&self) -> u32 {
-        self.resets
+    /// Where the first check is written that was false, so that the program started again, e.g. `race.starl:12:7`.
+    pub fn failed_check(&self) -> Option<String> {
+        self.code.place_of_check(self.failed_check?)
     }
 
     /// Where its motion leads, or led last: a robot that cannot get to its target may have given up.
@@ -168,7 +168,7 @@ impl RobotProgram {
             .and_then(|()| part.run(code, held, (paces, now), &mut machine));
         let (failure, has_fired) = (host.failure, host.has_fired);
         if let Some(check) = failed_check {
-            self.resets += 1;
+            self.failed_check.get_or_insert(check);
             paces.fill(Pace::default());
             let place = code.place_of_check(check).unwrap_or_default();
             let fields = [("check".into(), Detail::Text(place.into()))];
@@ -426,7 +426,7 @@ impl Program for RobotProgram {
             phase,
             rests: _,
             paces,
-            resets: _,
+            failed_check: _,
             target: _,
         } = self;
         let kept = kept.iter().flat_map(|kept| kept.digests());
