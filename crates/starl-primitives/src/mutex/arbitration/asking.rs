@@ -30,38 +30,30 @@ fn renewal(left: Duration, belief: Duration) -> Duration {
 }
 
 impl Arbitration {
-    /// A request that waits for suspected robots continues without them: by another quorum, or with leases not at all
-    /// until a majority is trusted. A robot that hears too few others to get anything may still be heard by them, and
-    /// each repetition would keep grants of which it does not know.
+    /// A request that waits for robots that are suspected tries a quorum without them.
     pub fn avoid_suspects(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
-        let waiting = self.request.as_ref().filter(|request| !request.is_entered);
-        let Some(request) = waiting else {
+        if is_lease(common) {
             return;
-        };
-        let is_suspected = |peer: RobotId| common.suspects.contains(&peer);
-        let is_useless = match is_lease(common) {
-            true => request.is_sent() && !self.trusts_majority(common),
-            false => {
-                request.arbiters().any(is_suspected)
-                    && quorum(&self.everyone, robot.id(), &common.suspects).is_some()
-            }
-        };
-        if is_useless {
+        }
+        let waiting = self.request.as_ref().filter(|request| !request.is_entered);
+        if let Some(request) = waiting
+            && request
+                .arbiters()
+                .any(|peer| common.suspects.contains(&peer))
+            && quorum(&self.everyone, robot.id(), &common.suspects).is_some()
+        {
             let (clock, resources) = (request.clock, request.resources.clone());
             self.give_back(common, robot);
             self.make_request(common, robot, clock, resources);
-        } else if !request.is_sent() {
-            self.repeat(common, robot);
         }
     }
 
-    /// Whether this robot may hear from enough robots for a lease.
-    pub(super) fn trusts_majority(&self, common: &Common) -> bool {
-        let suspected = self
-            .everyone
-            .iter()
-            .filter(|peer| common.suspects.contains(peer));
-        suspected.count() < self.everyone.len().div_ceil(2)
+    /// Whether this robot may hear from enough robots for a lease. One that does not may still be heard by them, and
+    /// with each request would renew grants of which it does not know.
+    fn trusts_majority(&self, common: &Common) -> bool {
+        let is_suspected = |peer: &&RobotId| common.suspects.contains(peer);
+        let suspected = self.everyone.iter().filter(is_suspected).count();
+        suspected < self.everyone.len().div_ceil(2)
     }
 
     /// The participants have changed: grants of the old ones do not count among the new ones.
@@ -98,7 +90,7 @@ impl Arbitration {
     /// Sends the request, repeats it, or renews the lease.
     pub(super) fn repeat(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let (now, enough) = (robot.now(), self.enough(common));
-        let is_hopeless = is_lease(common) && !self.trusts_majority(common);
+        let is_hopeless = !self.trusts_majority(common);
         let mut post = Post::default();
         let Some(request) = &mut self.request else {
             return;
@@ -107,7 +99,7 @@ impl Arbitration {
         if let Enough::Majority(majority, belief) = enough {
             after = after.min(belief / REPETITIONS);
             if is_hopeless && !request.is_entered {
-                return robot.set_timer(common.timer(Alarm::Repeat), belief);
+                return robot.set_timer(common.timer(Alarm::Repeat), after);
             }
             if request.is_entered {
                 let until = request.held_until(now, majority, belief);

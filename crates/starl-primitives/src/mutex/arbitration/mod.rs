@@ -120,7 +120,6 @@ impl Arbitration {
         let mut post = Post::default();
         if let Some(request) = &self.request
             && !request.is_entered
-            && request.is_sent()
             && request.has_asked(peer)
         {
             post.send(peer, Packet::Request(request.wish(peer, common)));
@@ -151,7 +150,7 @@ impl Arbitration {
         let asks = self
             .request
             .as_ref()
-            .filter(|request| (is_lease(common) || !request.is_entered) && request.is_sent());
+            .filter(|request| is_lease(common) || !request.is_entered);
         if asks.is_some_and(|request| request.is_overdue(robot.now(), longest)) {
             self.repeat(common, robot);
         }

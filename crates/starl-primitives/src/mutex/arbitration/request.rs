@@ -151,11 +151,6 @@ impl Request {
         }
     }
 
-    /// Whether any arbiter was asked.
-    pub fn is_sent(&self) -> bool {
-        !self.sent.is_empty()
-    }
-
     /// Whether it should have been repeated, as it is at least this often.
     pub fn is_overdue(&self, now: Time, span: Duration) -> bool {
         self.sent
