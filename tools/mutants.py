@@ -110,6 +110,9 @@ def of_folder(listed, mutant):
 def place_of(mutant, text):
     """Where the text to replace begins: the only place where it stands, or the first one after the text `after`."""
     unique = mutant.get("after", mutant["right"])
+    for part in ("right", "wrong"):
+        if any(mutant[part].count(left) != mutant[part].count(right) for left, right in ("()", "[]", "{}")):
+            fail(f"{mutant['name']}: `{part}` is no whole expression or statement: {mutant[part]}")
     if (times := text.count(unique)) != 1:
         fail(f"{mutant['name']}: this is {times} times in {mutant['file']}, but must be there once: {unique}")
     start = text.find(mutant["right"], text.index(unique))
