@@ -78,11 +78,12 @@ impl ProgramMonitor {
             .get_or_insert_with(|| (witness.robots().into(), witness.way_points().into()));
         for robot in self.robots.iter().copied() {
             let program = members.program(robot);
-            if let Some(place) = program.and_then(RobotProgram::failed_check)
+            if !self.unsound.contains(&robot)
+                && let Some(place) = program.and_then(RobotProgram::failed_check)
                 && **robots == *witness.robots()
                 && **way_points == *witness.way_points()
-                && self.unsound.insert(robot)
             {
+                self.unsound.insert(robot);
                 violations.push(Violation {
                     property: property.clone(),
                     at: now,

@@ -43,6 +43,16 @@ fn all_get_through_with_temporary_faults() {
 
 #[test]
 fn no_car_collides_with_a_broken_down_car() {
-    let traffic = stream(&["fault_rates.crash=0.05/min", "duration=240s"]);
-    assert!(!traffic.stuck_at_the_end().is_empty());
+    some_break_down("seed=1");
+}
+
+#[test]
+#[ignore = "takes seconds without optimisation, and is the same with another seed"]
+fn no_car_collides_with_another_broken_down_car() {
+    some_break_down("seed=2");
+}
+
+fn some_break_down(seed: &str) {
+    let traffic = stream(&["fault_rates.crash=0.05/min", seed, "duration=240s"]);
+    assert!(!traffic.stuck_at_the_end().is_empty(), "{seed}");
 }

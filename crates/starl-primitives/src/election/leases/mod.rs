@@ -246,7 +246,7 @@ impl Rules for Leases {
                 self.give_up(scene);
             }
         }
-        if !scene.trusts_majority() && !self.leads(scene) {
+        if self.claim.is_some() && !self.leads(scene) && !scene.trusts_majority() {
             self.give_up(scene);
         }
         match &self.claim {
