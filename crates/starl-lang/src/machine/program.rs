@@ -2,6 +2,7 @@
 
 use crate::machine::bytecode::{Bytecode, Function, Span};
 use crate::machine::host::Signature;
+use crate::machine::operand;
 use crate::machine::types::{Layout, Parts};
 use crate::machine::value::object::Object;
 use crate::machine::value::state::State;
@@ -45,6 +46,12 @@ impl Program {
     /// The layout of the state.
     pub fn state_layout(&self) -> &Layout {
         &self.state
+    }
+
+    /// The layouts of the parts of an object type.
+    #[inline]
+    pub(in crate::machine) fn parts_of(&self, kind: operand::Type) -> Option<&Parts> {
+        self.parts.get(usize::from(kind.0))
     }
 
     /// The layouts of the parts of each object type.

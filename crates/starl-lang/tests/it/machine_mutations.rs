@@ -52,10 +52,10 @@ fn object(program: &Program, kind: u16, random: &mut Random) -> Object {
         ObjectType::List(_) | ObjectType::Set(_) => {
             list(program, &parts.element, length, random).into()
         }
-        ObjectType::Map(..) => Body::Map(Box::new(Map::new(
+        ObjectType::Map(..) => Body::Map(Map::new(
             list(program, &parts.element, length, random),
             list(program, &parts.value, length, random),
-        )))
+        ))
         .into(),
         ObjectType::Area | ObjectType::Obstacles => Object::EMPTY,
     }

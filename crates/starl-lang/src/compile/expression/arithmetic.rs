@@ -1,10 +1,11 @@
 //! Operators of arithmetic. Which instruction an operator is, the types of its operands say.
 
+use crate::check::Builtin;
 use crate::compile::body::{Body, Slot};
 use crate::compile::problem::Compiled;
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
 use crate::machine::Instruction;
-use crate::machine::operand::{In, Out};
+use crate::machine::operand::{In, ObjectInOut, Out};
 
 /// The left operand of an operator.
 #[derive(Clone, Copy)]
@@ -38,29 +39,39 @@ impl<'p> Body<'_, 'p> {
         match expression.ty {
             Type::String | Type::List(_) => {
                 self.into(left, to, true)?;
-                self.append(to.operand(), right)
+                self.append(ObjectInOut(to.operand()), right, true)
             }
             _ => self.operate(*operator, Left::Expression(left), right, to, is_fresh),
         }
     }
 
-    /// Puts a text or a list at the end of another one.
-    pub fn append(&mut self, to: u8, right: &'p Expression) -> Compiled {
-        use crate::machine::operand::ObjectInOut;
-        let mark = self.mark();
-        let from = self.object(right)?;
-        self.emit(match right.ty {
-            Type::String => Instruction::AppendText {
-                text: ObjectInOut(to),
-                from,
-            },
-            _ => Instruction::ListAppend {
-                list: ObjectInOut(to),
-                from,
-            },
-        });
-        self.release(mark);
-        Ok(())
+    /// Puts a text or a list at the end of another one. If it is apart from that one, no part of it reads what the other
+    /// becomes, so that its parts can be put there one by one.
+    pub fn append(&mut self, to: ObjectInOut, right: &'p Expression, is_apart: bool) -> Compiled {
+        match (&right.ty, &right.kind) {
+            (_, ExpressionKind::Binary { left, right, .. }) if is_apart => {
+                self.append(to, left, true)?;
+                self.append(to, right, true)
+            }
+            (
+                _,
+                ExpressionKind::Builtin {
+                    builtin: Builtin::ToString,
+                    arguments,
+                    ..
+                },
+            ) if is_apart => self.append_value(to, self.given(arguments, 0)?),
+            _ => {
+                let mark = self.mark();
+                let from = self.object(right)?;
+                self.emit(match right.ty {
+                    Type::String => Instruction::AppendText { text: to, from },
+                    _ => Instruction::ListAppend { list: to, from },
+                });
+                self.release(mark);
+                Ok(())
+            }
+        }
     }
 
     /// An operator between scalars or points.

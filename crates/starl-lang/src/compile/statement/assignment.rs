@@ -1,10 +1,11 @@
 //! Assignments.
 
+use crate::check::Builtin;
 use crate::compile::body::{Body, Location, Slot};
 use crate::compile::expression::arithmetic::Left;
 use crate::compile::problem::Compiled;
 use crate::compile::statement::way::{Prepared, Way};
-use crate::ir::{Expression, ExpressionKind, Operator, Place, Root, Step, Type};
+use crate::ir::{Expression, ExpressionKind, LocalId, Operator, Place, Root, Step, Type};
 use crate::machine::Instruction;
 
 impl<'p> Body<'_, 'p> {
@@ -116,9 +117,12 @@ impl<'p> Body<'_, 'p> {
         let adds = matches!(operator, Operator::Add | Operator::Subtract);
         let (mut way, ty) = self.go(place, &prepared, place.path.len(), adds)?;
         if matches!(ty, Type::String | Type::List(_)) {
-            // The appended value may be a part of the variable itself, so it is read before the variable changes.
+            let is_apart = match (&place.root, place.path.is_empty()) {
+                (Root::Local(local), true) => is_apart(value, *local),
+                _ => false,
+            };
             let object = self.container(&mut way)?;
-            self.append(object.0, value)?;
+            self.append(object, value, is_apart)?;
             self.write_back(way.back)?;
             self.release(mark);
             return Ok(());
@@ -149,5 +153,32 @@ impl<'p> Body<'_, 'p> {
             kind,
         });
         self.write_back(way.back)
+    }
+}
+
+/// Whether a value surely does not read a local variable.
+fn is_apart(value: &Expression, local: LocalId) -> bool {
+    match &value.kind {
+        ExpressionKind::Local(other) => *other != local,
+        ExpressionKind::String(_)
+        | ExpressionKind::Int(_)
+        | ExpressionKind::Float(_)
+        | ExpressionKind::Variable(_)
+        | ExpressionKind::Parameter(_)
+        | ExpressionKind::Constant(_) => true,
+        ExpressionKind::Binary { left, right, .. } => {
+            is_apart(left, local) && is_apart(right, local)
+        }
+        ExpressionKind::Index { base, index } => is_apart(base, local) && is_apart(index, local),
+        ExpressionKind::Field { base, .. } => is_apart(base, local),
+        ExpressionKind::Builtin {
+            builtin: Builtin::ToString,
+            arguments,
+            ..
+        } => arguments
+            .iter()
+            .flatten()
+            .all(|argument| is_apart(argument, local)),
+        _ => false,
     }
 }

@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 use crate::compile::body::{Body, Location, Slot, state_operand};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
-use crate::ir::{Place, Root, SharedId, Step, Type};
+use crate::ir::{Expression, ExpressionKind, Place, Root, SharedId, Step, Type};
 use crate::machine::operand::{In, ObjectIn, ObjectInOut, ObjectOut, ObjectSlot};
 use crate::machine::{Instruction, operand};
 
@@ -52,16 +52,27 @@ impl<'p> Body<'_, 'p> {
                 Step::Field(_) | Step::Coordinate(_) => Prepared::Nothing,
                 Step::Index(index) => Prepared::Index(self.value(index)?.input()),
                 Step::Key(key) => {
-                    let value = self.step_type(ty, step)?;
-                    let size = self.size(&key.ty).plus(self.size(value));
-                    let entry = self.take(size)?;
-                    self.into(key, entry, true)?;
-                    Prepared::Entry(entry)
+                    let value = self.size(self.step_type(ty, step)?);
+                    Prepared::Entry(self.entry(key, value)?)
                 }
             });
             ty = self.step_type(ty, step)?;
         }
         Ok(prepared)
+    }
+
+    /// Registers for a key and a value of this size. The key is there.
+    fn entry(&mut self, key: &'p Expression, value: Size) -> Compiled<Slot> {
+        let size = self.size(&key.ty);
+        // A text in a variable can stay where it is, as no object has to come after it.
+        if let (ExpressionKind::Local(local), Size::OBJECT, 0) = (&key.kind, size, value.objects) {
+            let Slot { object, .. } = self.local(*local)?;
+            let Slot { scalar, .. } = self.take(value)?;
+            return Ok(Slot { scalar, object });
+        }
+        let entry = self.take(size.plus(value))?;
+        self.into(key, entry, true)?;
+        Ok(entry)
     }
 
     fn root_type(&self, root: &Root) -> Compiled<&'p Type> {

@@ -8,6 +8,7 @@ use super::scalar;
 use crate::machine::error::{Fault, RuntimeError};
 use crate::machine::host::Host;
 use crate::machine::instruction::Instruction;
+use crate::machine::interpreter::maps::{get_scalars, put_scalars};
 use crate::machine::interpreter::view::{Meter, View, object_at, object_at_mut, shift};
 use crate::machine::interpreter::workspace::{Frame, OBJECT_WINDOW, Registers, WINDOW, Workspace};
 use crate::machine::operand::{PointIn, PointOut};
@@ -526,21 +527,27 @@ impl Execution<'_> {
                         list,
                         index,
                         scalars,
-                        ..
+                        objects: to,
                     } => {
                         let (objects, state) = (&self.workspace.objects, &self.state.objects);
                         let object = object_at(objects, object_base, state, list.0);
-                        let element = object
-                            .ok()
-                            .and_then(Object::list)
-                            .and_then(|list| list.scalars_at(r[index.place()]));
-                        match element {
+                        let list = object.ok().and_then(Object::list);
+                        let index = r[index.place()];
+                        match list.and_then(|list| list.scalars_at(index)) {
                             Some(element) if element.len() < 8 => {
                                 for (offset, &word) in element.iter().enumerate() {
                                     r[(scalars.place() + offset) % WINDOW] = word;
                                 }
                             }
-                            _ => object_instruction!(instruction),
+                            _ => {
+                                let object = list.and_then(|list| list.object_at(index)).cloned();
+                                let place =
+                                    (self.workspace.objects).get_mut(object_base + to.place());
+                                match share_into(place, object, &mut self.meter) {
+                                    Some(cost) => spend!(cost),
+                                    None => object_instruction!(instruction),
+                                }
+                            }
                         }
                     }
                     Instruction::ListSet {
@@ -563,6 +570,45 @@ impl Execution<'_> {
                                 }
                             }
                             _ => object_instruction!(instruction),
+                        }
+                    }
+                    Instruction::MapGet {
+                        map,
+                        scalars,
+                        objects: key,
+                        to,
+                        kind,
+                        ..
+                    } => {
+                        let (objects, state) = (&self.workspace.objects, &self.state.objects);
+                        let map = object_at(objects, object_base, state, map.0).ok();
+                        let text = objects.get(object_base + key.place());
+                        let key = (scalars.place(), text);
+                        match get_scalars(map, key, to.place(), program.parts_of(kind), r) {
+                            Some(()) => spend!(3),
+                            None => object_instruction!(instruction),
+                        }
+                    }
+                    Instruction::MapPut {
+                        map,
+                        scalars,
+                        objects: key,
+                        kind,
+                    } => {
+                        let (objects, state) =
+                            (&mut self.workspace.objects, &mut self.state.objects);
+                        let place = object_at_mut(objects, object_base, state, map.0);
+                        let mut taken = place.ok().map(core::mem::take);
+                        let text = objects.get(object_base + key.place());
+                        let key = (scalars.place(), text);
+                        let put = put_scalars(taken.as_mut(), key, program.parts_of(kind), r);
+                        let place = object_at_mut(objects, object_base, state, map.0);
+                        if let (Ok(place), Some(map)) = (place, taken) {
+                            *place = map;
+                        }
+                        match put {
+                            Some(()) => spend!(3),
+                            None => object_instruction!(instruction),
                         }
                     }
                     Instruction::Size { to, from } => {
@@ -636,6 +682,21 @@ impl Execution<'_> {
             meter: &mut self.meter,
         })
     }
+}
+
+/// Puts a shared object into a register if that is within the memory that is known to be left; gives what it costs.
+#[inline(never)]
+fn share_into(
+    place: Option<&mut Object>,
+    object: Option<Object>,
+    meter: &mut Meter,
+) -> Option<u64> {
+    let object = object?;
+    let bytes = object.bytes();
+    let spare = meter.spare.checked_sub(bytes)?;
+    *place? = object;
+    meter.spare = spare;
+    Some(shift(bytes))
 }
 
 fn three(scalars: &[u64], start: u32) -> Option<[u64; 3]> {

@@ -2,13 +2,73 @@
 
 use crate::machine::error::Fault;
 use crate::machine::interpreter::lists::insert;
-use crate::machine::interpreter::view::{View, object_at, object_at_mut, shift};
+use crate::machine::interpreter::view::{View, object_at, shift};
+use crate::machine::interpreter::workspace::{Registers, WINDOW};
 use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, Type};
 use crate::machine::types::Parts;
+use crate::machine::value::list;
 use crate::machine::value::object::{Map, Object};
 
 /// Where a value stands in registers: its first scalar and its first object.
 type Place = (Block, ObjectBlock);
+
+/// A key in registers: the place of its first scalar, and its first object.
+type Key<'a> = (usize, Option<&'a Object>);
+
+/// Reads the value of a key that is found without a search, if it is scalars alone.
+#[inline(never)]
+pub fn get_scalars(
+    map: Option<&Object>,
+    key: Key<'_>,
+    to: usize,
+    parts: Option<&Parts>,
+    r: &mut Registers,
+) -> Option<()> {
+    let value = map?.map()?.scalars_of(hashed(key, parts?, r)?)?;
+    if value.len() >= 8 {
+        return None;
+    }
+    r[to % WINDOW] = 1;
+    for (offset, &word) in value.iter().enumerate() {
+        r[(to + 1 + offset) % WINDOW] = word;
+    }
+    Some(())
+}
+
+/// Replaces the value of a key that is found without a search, if it is scalars alone.
+#[inline(never)]
+pub fn put_scalars(
+    map: Option<&mut Object>,
+    key: Key<'_>,
+    parts: Option<&Parts>,
+    r: &Registers,
+) -> Option<()> {
+    let parts = parts?;
+    let place = map?.own_map_mut()?.scalars_of_mut(hashed(key, parts, r)?)?;
+    let start = key.0 + parts.element.scalars.len();
+    for (offset, word) in place.iter_mut().enumerate() {
+        *word = r[(start + offset) % WINDOW];
+    }
+    Some(())
+}
+
+/// The key, if an index may have it.
+#[inline(always)]
+fn hashed<'a>((place, text): Key<'a>, parts: &Parts, r: &'a Registers) -> Option<list::Block<'a>> {
+    if !parts.has_hashed_keys {
+        return None;
+    }
+    Some(match parts.element.objects.len() {
+        0 => list::Block {
+            scalars: r.get(place..=place)?,
+            objects: &[],
+        },
+        _ => list::Block {
+            scalars: &[],
+            objects: core::slice::from_ref(text?),
+        },
+    })
+}
 
 impl View<'_> {
     pub fn map_put(
@@ -21,20 +81,6 @@ impl View<'_> {
         let parts = self.parts(kind)?;
         let (key, value) = (&parts.element, &parts.value);
         let found = self.map_search(ObjectIn(map.0), (scalars, objects), parts)?;
-        let value_start = scalars.place() + key.scalars.len();
-        // A value of scalars alone that takes the place of another changes nothing else.
-        if let Some(at) = found
-            && value.objects.is_empty()
-            && let Some(new) = (self.registers).get(value_start..value_start + value.scalars.len())
-            && let Some(map) =
-                object_at_mut(self.objects, self.object_base, self.state, map.0)?.own_map_mut()
-            && let Some(values) = map.values_mut().own_list_mut()
-            && let Some(old) = values.scalars_at_mut(at as u64)
-            && old.len() == new.len()
-        {
-            old.copy_from_slice(new);
-            return Ok(3);
-        }
         self.change(map, |object, view| {
             let key_block = view.block(scalars, objects, key)?;
             let value_block = view.block_of(

@@ -21,8 +21,16 @@ impl View<'_> {
     }
 
     pub fn append_text(&mut self, text: ObjectInOut, from: ObjectIn) -> Result<u64, Fault> {
-        let from = self.read(from)?.clone();
-        self.append(text, from.text(), shift(from.bytes()))
+        if text.0 == from.0 {
+            let from = self.read(from)?.clone();
+            return self.append(text, from.text(), shift(from.bytes()));
+        }
+        self.change(text, |object, view| {
+            let from = view.read(from)?;
+            let text = object.text_mut().ok_or(Fault::Malformed)?;
+            text.push_str(from.text());
+            Ok(shift(from.bytes()))
+        })
     }
 
     pub fn append_scalar(
@@ -31,10 +39,12 @@ impl View<'_> {
         from: In,
         format: Format,
     ) -> Result<u64, Fault> {
-        let mut words = String::new();
-        let written = format_scalar(&mut words, self.scalar(from), format);
-        written.map_err(|_| Fault::Malformed)?;
-        self.append(text, &words, 3)
+        let scalar = self.scalar(from);
+        self.change(text, |object, _| {
+            let text = object.text_mut().ok_or(Fault::Malformed)?;
+            format_scalar(text, scalar, format).map_err(|_| Fault::Malformed)?;
+            Ok(3)
+        })
     }
 
     pub fn append_point(&mut self, text: ObjectInOut, from: PointIn) -> Result<u64, Fault> {
@@ -103,7 +113,11 @@ impl View<'_> {
         let (text, separator) = (self.read(text)?.text(), self.read(separator)?.text());
         let parts: Vec<Object> = match separator {
             "" => Vec::from([text.into()]),
-            separator => text.split(separator).map(Object::from).collect(),
+            separator => match separator.parse::<char>() {
+                // One character is found faster than a text.
+                Ok(character) => text.split(character).map(Object::from).collect(),
+                Err(_) => text.split(separator).map(Object::from).collect(),
+            },
         };
         let cost = shift(text.len()) + 8 * parts.len() as u64;
         Ok(cost + self.put(to, List::of_objects(parts).into())?)

@@ -125,10 +125,7 @@ impl<'a> View<'a> {
 
     /// The layouts of a type's parts.
     pub fn parts(&self, kind: Type) -> Result<&'a Parts, Fault> {
-        self.program
-            .parts
-            .get(usize::from(kind.0))
-            .ok_or(Fault::Malformed)
+        self.program.parts_of(kind).ok_or(Fault::Malformed)
     }
 
     /// The registers of a value of this layout.

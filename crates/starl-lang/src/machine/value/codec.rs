@@ -11,7 +11,6 @@ use crate::machine::program::Program;
 use crate::machine::types::{Layout, ObjectType, Parts, Type};
 use crate::machine::value::list::{Block, List};
 use crate::machine::value::object::{Body, Map, Object};
-use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use starl_core::{Area, Payload, message};
@@ -268,7 +267,7 @@ impl<'a> Reader<'a> {
                 if !ascending(&keys, parts, &program.parts) {
                     return None;
                 }
-                Body::Map(Box::new(Map::new(keys, values))).into()
+                Body::Map(Map::new(keys, values)).into()
             }
         };
         Some(object)

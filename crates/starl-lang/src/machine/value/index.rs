@@ -23,15 +23,26 @@ const LONGEST: usize = 16;
 pub struct Index {
     /// How often the map was asked since its keys changed.
     asked: AtomicU32,
+    /// Where the last key was found: programs often read a value and then write it.
+    last: AtomicU32,
     table: OnceBox<Table>,
 }
 
 /// Where keys are, by their hashes.
 struct Table {
-    /// The index of a key plus one; 0 where there is none. Its length is a power of two.
-    places: Box<[u32]>,
+    /// Its length is a power of two.
+    places: Box<[Place]>,
     /// How many bits of a hash are left out: its high bits depend on all bits of the key.
     shift: u32,
+}
+
+/// A place of the table.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    /// The index of a key plus one; 0 where there is none.
+    number: u32,
+    /// A part of the key's hash, so that most other keys are not looked at.
+    tag: u32,
 }
 
 /// The answer of the index about a key.
@@ -44,17 +55,47 @@ pub enum Found {
     Unknown,
 }
 
+impl Found {
+    /// The index, if it is known.
+    #[inline]
+    pub fn at(self) -> Option<u64> {
+        match self {
+            Found::At(at) => Some(at as u64),
+            Found::Nowhere | Found::Unknown => None,
+        }
+    }
+}
+
 impl Index {
     /// Where a key is. `keys` are the keys of the map.
-    #[inline]
+    #[inline(always)]
     pub fn find(&self, keys: &List, key: Block<'_>) -> Found {
-        match self.table.get() {
-            Some(table) => table.find(keys, key),
-            None => {
-                self.ask(keys);
-                Found::Unknown
+        let last = self.last.load(Ordering::Relaxed) as usize;
+        if keys.is_surely_at(last, key) {
+            return Found::At(last);
+        }
+        // Numbers without gaps need no index.
+        if let ([number], Some(&[first, ..])) = (key.scalars, keys.scalars().first_chunk::<1>()) {
+            let guess = number.wrapping_sub(first) as usize;
+            if keys.is_surely_at(guess, key) {
+                self.last.store(guess as u32, Ordering::Relaxed);
+                return Found::At(guess);
             }
         }
+        self.look_up(keys, key)
+    }
+
+    #[inline(never)]
+    fn look_up(&self, keys: &List, key: Block<'_>) -> Found {
+        let Some(table) = self.table.get() else {
+            self.ask(keys);
+            return Found::Unknown;
+        };
+        let found = table.find(keys, key);
+        if let Found::At(at) = found {
+            self.last.store(at as u32, Ordering::Relaxed);
+        }
+        found
     }
 
     /// Forgets the index, because the keys change.
@@ -92,38 +133,49 @@ impl Table {
     fn of(keys: &List) -> Table {
         let length = (2 * keys.len()).next_power_of_two();
         let mut table = Table {
-            places: vec![0; length].into(),
+            places: vec![Place::default(); length].into(),
             shift: u64::BITS - length.trailing_zeros(),
         };
         for (number, key) in keys.iter().enumerate() {
-            let mut places = table.places_of(key);
-            if let Some(place) = places.find(|&place| table.places[place] == 0) {
-                table.places[place] = number as u32 + 1;
+            let hash = hash(key);
+            let mut places = table.places_of(hash);
+            if let Some(place) = places.find(|&place| table.places[place].number == 0) {
+                table.places[place] = Place {
+                    number: number as u32 + 1,
+                    tag: tag(hash),
+                };
             }
         }
         table
     }
 
-    /// The places where a key may be, in order.
+    /// The places where a key with this hash may be, in order.
     #[inline]
-    fn places_of(&self, key: Block<'_>) -> impl Iterator<Item = usize> + use<> {
+    fn places_of(&self, hash: u64) -> impl Iterator<Item = usize> + use<> {
         let mask = self.places.len() - 1;
-        let first = (hash(key) >> self.shift) as usize;
+        let first = (hash >> self.shift) as usize;
         (first..first + LONGEST).map(move |place| place & mask)
     }
 
     #[inline]
     fn find(&self, keys: &List, key: Block<'_>) -> Found {
-        for place in self.places_of(key) {
-            let Some(number) = self.places[place].checked_sub(1) else {
+        let hash = hash(key);
+        for place in self.places_of(hash) {
+            let Place { number, tag: other } = self.places[place];
+            let Some(number) = number.checked_sub(1) else {
                 return Found::Nowhere;
             };
-            if keys.is_at(number as usize, key) {
+            if other == tag(hash) && keys.is_at(number as usize, key) {
                 return Found::At(number as usize);
             }
         }
         Found::Unknown
     }
+}
+
+/// Bits of a hash that do not choose the place.
+fn tag(hash: u64) -> u32 {
+    hash as u32
 }
 
 /// Multiplicative hashing: 2^64 divided by the golden ratio.
@@ -136,17 +188,15 @@ fn hash(key: Block<'_>) -> u64 {
         hash = mixed(hash, word);
     }
     for object in key.objects {
-        let mut words = object.text().as_bytes().chunks_exact(8);
-        for word in &mut words {
-            hash = mixed(
-                hash,
-                u64::from_le_bytes(word.try_into().unwrap_or_default()),
-            );
+        let (words, rest) = object.text().as_bytes().as_chunks::<8>();
+        for &word in words {
+            hash = mixed(hash, u64::from_le_bytes(word));
         }
-        let rest = words.remainder();
-        let mut last = [0; 8];
-        last[..rest.len()].copy_from_slice(rest);
-        hash = mixed(hash, u64::from_le_bytes(last));
+        let last = rest
+            .iter()
+            .rev()
+            .fold(0, |last, &byte| last << 8 | u64::from(byte));
+        hash = mixed(hash, last);
     }
     hash
 }

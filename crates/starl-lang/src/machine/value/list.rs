@@ -133,6 +133,15 @@ impl List {
         self.scalars.get_mut(start..start + width)
     }
 
+    /// The element at an index, of a list whose elements are one object each.
+    #[inline]
+    pub fn object_at(&self, index: u64) -> Option<&Object> {
+        match (self.width, self.object_width) {
+            (0, 1) => self.objects.get(index as usize),
+            _ => None,
+        }
+    }
+
     /// All elements in order.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = Block<'_>> {
         (0..self.len()).filter_map(|index| self.get(index))
@@ -282,6 +291,16 @@ impl List {
         match (block.scalars, block.objects) {
             ([scalar], []) => self.scalars.get(index) == Some(scalar),
             ([], [text]) => self.objects.get(index).is_some_and(|o| o.is_text(text)),
+            _ => false,
+        }
+    }
+
+    /// Whether the element at an index is this one, as far as that shows without comparing texts.
+    #[inline]
+    pub fn is_surely_at(&self, index: usize, block: Block<'_>) -> bool {
+        match (block.scalars, block.objects) {
+            ([scalar], []) => self.scalars.get(index) == Some(scalar),
+            ([], [text]) => self.objects.get(index).is_some_and(|o| o.is_shared(text)),
             _ => false,
         }
     }

@@ -7,7 +7,6 @@
 use crate::machine::types::{Layout, Parts};
 use crate::machine::value::index::{Found, Index};
 use crate::machine::value::list::{Block, List};
-use alloc::boxed::Box;
 use alloc::string::String;
 use core::cmp::Ordering;
 use serde::{Deserialize, Serialize};
@@ -33,7 +32,7 @@ pub enum Body {
     /// A list, or a set: a list in ascending order without repetitions.
     List(List),
     /// A map.
-    Map(Box<Map>),
+    Map(Map),
     /// A region.
     Area(Area),
     /// Obstacles.
@@ -86,6 +85,20 @@ impl Map {
         (&mut self.keys, &mut self.values)
     }
 
+    /// The value of a hashed key, if it is found without a search and is scalars alone.
+    #[inline]
+    pub fn scalars_of(&self, key: Block<'_>) -> Option<&[u64]> {
+        let at = self.index.find(self.keys.list()?, key).at()?;
+        self.values.list()?.scalars_at(at)
+    }
+
+    /// As [`Map::scalars_of`], to be changed; none if the values have another holder.
+    #[inline]
+    pub fn scalars_of_mut(&mut self, key: Block<'_>) -> Option<&mut [u64]> {
+        let at = self.index.find(self.keys.list()?, key).at()?;
+        self.values.own_list_mut()?.scalars_at_mut(at)
+    }
+
     /// The index of a key.
     #[inline]
     pub fn find(&self, key: Block<'_>, parts: &Parts, types: &[Parts]) -> Option<usize> {
@@ -120,13 +133,16 @@ impl Object {
         }
     }
 
+    /// Whether both hold the same body.
+    #[inline]
+    pub fn is_shared(&self, other: &Object) -> bool {
+        matches!((&self.0, &other.0), (Some(left), Some(right)) if Arc::ptr_eq(left, right))
+    }
+
     /// Whether both are the same text. Texts that share a body are not looked at.
     #[inline]
     pub fn is_text(&self, other: &Object) -> bool {
-        match (&self.0, &other.0) {
-            (Some(left), Some(right)) if Arc::ptr_eq(left, right) => true,
-            _ => self.text() == other.text(),
-        }
+        self.is_shared(other) || self.text() == other.text()
     }
 
     /// The elements of a list or set; none if it is empty.
@@ -182,7 +198,7 @@ impl Object {
 
     /// The map, mutable; created if the object is empty; none if the object is not a map.
     pub fn map_mut(&mut self) -> Option<&mut Map> {
-        let new = || Arc::new(Body::Map(Box::default()));
+        let new = || Arc::new(Body::Map(Map::default()));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {
             Body::Map(map) => Some(map),
             _ => None,

@@ -175,7 +175,7 @@ impl Value {
                     return None; // a key is there twice
                 }
                 let values = values.arranged(order.into_iter());
-                Body::Map(Box::new(Map::new(sorted, values))).into()
+                Body::Map(Map::new(sorted, values)).into()
             }
             _ => return None,
         })

@@ -10,7 +10,6 @@ use crate::robot::arguments::Called;
 use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
-use alloc::boxed::Box;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 use starl_core::{Payload, Primitive, Random, Robot, RobotId};
@@ -140,7 +139,7 @@ pub(in crate::robot) fn give_all(
     let cost = 10 * owners.len() as u64;
     let map = match owners.is_empty() {
         true => Object::EMPTY,
-        false => Body::Map(Box::new(Map::new(robots(owners), values))).into(),
+        false => Body::Map(Map::new(robots(owners), values)).into(),
     };
     call.set_object(0, map);
     Ok(cost)

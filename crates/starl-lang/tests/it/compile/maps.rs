@@ -115,3 +115,50 @@ log(\"{} {} {} {}\", sets, texts, spans[me], rows)";
     ];
     assert_eq!(told, expected.map(|text| format!("log({text:?})")));
 }
+
+#[test]
+fn a_text_in_a_variable_is_a_key() {
+    let body = "
+let key = \"a\"
+m[key] = m.size()
+m[key] += 10
+key += \"b\"
+m[key] = key.size() + m.size()
+for k in [\"c\", \"a\", \"c\"]
+    m[k] = (m.get(k) ?? 0) + 1
+log(\"{}\", m)";
+    let told = effect("m: Map[String, Int]", body.trim()).unwrap();
+    assert_eq!(
+        told,
+        ["log(\"{\\\"a\\\": 11, \\\"ab\\\": 3, \\\"c\\\": 2}\")"]
+    );
+}
+
+#[test]
+fn keys_with_and_without_gaps_are_found() {
+    let body = "
+for i in 0..40
+    m[i - 20] = i
+    if i % 3 == 0 then n[i * i - 100] = i
+let sum = 0
+for i in -30..30
+    sum += m.get(i) ?? 1000
+    sum += n.get(i) ?? 100000
+m.remove(0)
+for i in -2..3
+    sum += m.get(i) ?? 1000000
+log(\"{} {}\", sum, m.size())";
+    let told = effect("m: Map[Int, Int]\nn: Map[Int, Int]", body.trim()).unwrap();
+    let n: Vec<i64> = (0..40).filter(|i| i % 3 == 0).collect();
+    let read = |i: i64| {
+        n.iter()
+            .find(|n| *n * *n - 100 == i)
+            .copied()
+            .unwrap_or(100_000)
+    };
+    let sum: i64 = (-30..30)
+        .map(|i| if (-20..20).contains(&i) { i + 20 } else { 1000 } + read(i))
+        .sum();
+    let sum = sum + 18 + 19 + 1_000_000 + 21 + 22;
+    assert_eq!(told, [format!("log(\"{sum} 39\")")]);
+}

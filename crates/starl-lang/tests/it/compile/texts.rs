@@ -69,3 +69,22 @@ log(\"{} {}\", s, u)";
     let told = effect("s: String = \"a\"", body.trim()).unwrap();
     assert_eq!(told, ["log(\"a12a12 a12a123a12a123\")"]);
 }
+
+#[test]
+fn a_text_grows_by_what_it_was_before() {
+    let body = "
+let u = \"a\"
+u += \"<\" + u + String(u) + String(o) + \">\"
+let p = Named(\"n\", 1)
+p.name += String(p) + p.name
+let l = [1]
+l += [2] + l + [3]
+s += \"-\" + s + String(s.size())
+log(\"{} {} {} {}\", u, p.name, l, s)";
+    let declarations = "record Named {name: String, size: Int}\no: Int? = 7\ns: String = \"s\"";
+    let told = effect(declarations, body.trim()).unwrap();
+    assert_eq!(
+        told,
+        ["log(\"a<aa7> n(name = \\\"n\\\", size = 1)n [1, 2, 1, 3] s-s1\")"]
+    );
+}
