@@ -46,6 +46,8 @@ impl SharedMemory {
         self.gossip.begun = random.chance(0.5);
         self.gossip.vain = random.bits();
         self.gossip.equal = random.bits();
+        self.gossip.unasked = random.bits() as u8;
+        self.gossip.next = random.word();
         self.gossip.differing = random.chance(0.5).then(|| RobotId(random.bits()));
     }
 }

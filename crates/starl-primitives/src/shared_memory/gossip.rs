@@ -9,7 +9,18 @@
 //! Where ours differs: the next interval begins with the announcement, not with the end of this one.
 
 use super::Options;
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 use starl_core::{Duration, Random, RobotId};
+
+/// After so many comparisons without an answer a robot is taken for one that is only heard.
+const UNANSWERED: u8 = 4;
+
+/// So many robots at most are named in an announcement.
+const MOST_COMPARED: usize = 8;
+
+/// So far from a robot that compares in vain others send elements unasked, datagrams.
+pub(super) const FARTHEST: u8 = 8;
 
 /// The rhythm of announcements.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +35,16 @@ pub(super) struct Gossip {
     pub differing: Option<RobotId>,
     /// How often differences have called for haste since this memory last changed.
     pub vain: u32,
+    /// Robots whose comparisons have arrived since the last announcement.
+    pub compared: Vec<RobotId>,
+    /// How many comparisons with these robots have had no answer.
+    unanswered: BTreeMap<RobotId, u8>,
+    /// If above 0, some robot does not hear one that hears it, so that they cannot compare their memories. Then all send
+    /// elements unasked with their announcements, so that these robots get them from any others that they hear. The
+    /// robot that compares in vain starts at [`FARTHEST`], and those that hear of it continue with one less.
+    pub unasked: u8,
+    /// The key after the last one that was sent unasked.
+    pub next: u64,
 }
 
 impl Gossip {
@@ -38,6 +59,32 @@ impl Gossip {
         let (shortest, longest) = options.intervals();
         let doubled = (self.interval * 2).max(shortest).min(longest);
         self.enter(doubled, random)
+    }
+
+    /// A comparison of a robot has arrived.
+    pub fn is_compared_by(&mut self, peer: RobotId) {
+        if self.compared.len() < MOST_COMPARED && !self.compared.contains(&peer) {
+            self.compared.push(peer);
+        }
+    }
+
+    /// A comparison with a robot begins.
+    pub fn compare_with(&mut self, peer: RobotId) {
+        let unanswered = self.unanswered.entry(peer).or_default();
+        *unanswered = unanswered.saturating_add(1);
+        if *unanswered > UNANSWERED {
+            self.unasked = FARTHEST;
+        }
+    }
+
+    /// A robot hears this one.
+    pub fn is_answered_by(&mut self, peer: RobotId) {
+        self.unanswered.remove(&peer);
+    }
+
+    /// A robot has announced that some memories cannot be compared.
+    pub fn hear_unasked(&mut self, theirs: u8) {
+        self.unasked = self.unasked.max(theirs.min(FARTHEST).saturating_sub(1));
     }
 
     /// Whether the shortest interval is still to be begun when something calls for it.

@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
-use starl_core::Payload;
+use starl_core::{Payload, RobotId};
 
 /// One datagram.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +31,7 @@ pub(super) enum Content {
 }
 
 /// A whole memory in short.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Announcement {
     /// Of all elements.
     pub fingerprint: u64,
@@ -39,6 +39,10 @@ pub(super) struct Announcement {
     pub elements: u32,
     /// Whether nothing has changed for a while.
     pub settled: bool,
+    /// See [`super::gossip::Gossip::unasked`].
+    pub unasked: u8,
+    /// Robots whose comparisons have arrived since the last announcement.
+    pub compared: Vec<RobotId>,
 }
 
 /// An element on its way. An element of a single-writer array belongs to its writer.

@@ -34,8 +34,13 @@ impl SharedMemory {
                 self.merge(robot, writes.collect());
             }
             Content::Announcement(theirs) => self.heard(robot, from, theirs),
-            Content::Comparison(parts) => self.compare(robot, from, &parts),
+            Content::Comparison(parts) => {
+                self.gossip.is_answered_by(from);
+                self.gossip.is_compared_by(from);
+                self.compare(robot, from, &parts);
+            }
             Content::Wanted(keys) => {
+                self.gossip.is_answered_by(from);
                 let known = keys.into_iter().filter(|&key| self.store.at(key).is_some());
                 self.repairs.extend(known);
             }
@@ -94,6 +99,10 @@ impl SharedMemory {
     fn heard(&mut self, robot: &mut Robot<'_>, from: RobotId, theirs: Announcement) {
         let is_equal = theirs.fingerprint == self.store.fingerprint()
             && theirs.elements == self.store.len() as u32;
+        self.gossip.hear_unasked(theirs.unasked);
+        if is_equal || theirs.compared.contains(&robot.id()) {
+            self.gossip.is_answered_by(from);
+        }
         if is_equal {
             self.gossip.equal = self.gossip.equal.saturating_add(1);
             return;

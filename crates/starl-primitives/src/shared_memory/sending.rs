@@ -6,6 +6,7 @@
 //! all, because others may lack them too.
 
 use super::compare;
+use super::gossip::FARTHEST;
 use super::packet::{Announcement, Content, Datagram, FRAME_BYTES, KEY_BYTES, Part, Range, Write};
 use super::store::Element;
 use super::{Alarm, SharedMemory};
@@ -23,6 +24,9 @@ const REPAIR_PAUSE: Duration = Duration::from_millis(10);
 /// At most this many datagrams of a kind answer one, so that a comparison in up to five steps does not
 /// grow into a flood; what they leave out is found in a later comparison.
 const MOST_ANSWERS: usize = 2;
+
+/// So many elements go out unasked with an announcement.
+const UNASKED: usize = 64;
 
 impl SharedMemory {
     /// Sends what this robot has written.
@@ -68,23 +72,46 @@ impl SharedMemory {
         let now = robot.now();
         self.store.refresh(now);
         let differing = self.gossip.differing.take();
-        if self.gossip.equal < self.options.redundancy.max(1) {
+        if self.gossip.equal < self.options.redundancy.max(1) || self.gossip.unasked > 0 {
+            if let Some(peer) = differing {
+                self.gossip.compare_with(peer);
+            }
             let announcement = Announcement {
                 fingerprint: self.store.fingerprint(),
                 elements: self.store.len() as u32,
                 settled: self.is_settled(robot),
+                unasked: self.gossip.unasked,
+                compared: core::mem::take(&mut self.gossip.compared),
             };
             self.send(robot, Destination::All, Content::Announcement(announcement));
             if let Some(peer) = differing {
                 let whole = compare::describe(&self.store, Range::ALL);
                 self.send_parts(robot, peer, whole.into_iter().collect());
             }
+            self.send_unasked();
         }
         let after = match self.ask(robot) {
             true => self.gossip.begin(&self.options, robot.random()),
             false => self.gossip.next(&self.options, robot.random()),
         };
         robot.set_timer(self.timer(Alarm::Gossip), after);
+    }
+
+    /// If some robots cannot compare their memories, the next elements go to all.
+    fn send_unasked(&mut self) {
+        if self.gossip.unasked == 0 {
+            return;
+        }
+        self.gossip.unasked = self.gossip.unasked.min(FARTHEST) - 1;
+        let first = self.gossip.next;
+        let rest = self.store.range(first..=u64::MAX);
+        let others = self.store.range(0..=first.saturating_sub(1));
+        let keys = rest.chain(others).map(|(key, _)| key).take(UNASKED);
+        let keys: Vec<u64> = keys.collect();
+        if let Some(last) = keys.last() {
+            self.gossip.next = last.wrapping_add(1);
+        }
+        self.repairs.extend(keys);
     }
 
     /// Sends some elements that others lack.

@@ -57,6 +57,66 @@ fn a_robot_that_can_send_but_not_hear_blocks_no_majority() {
 }
 
 #[test]
+fn a_robot_that_hears_others_than_hear_it_blocks_no_majority() {
+    // Robot 2 is heard by 0 alone, and hears 1 alone: it trusts a majority, and each of its requests reaches an arbiter.
+    for seed in 0..20 {
+        let wire = Wire {
+            loss: [0.0, 0.2][seed as usize % 2],
+            ..Wire::perfect()
+        };
+        let mut world = world(3, seed, wire, false);
+        world.run_for(SECOND * 5);
+        world.wire.cut.extend([(0, 2), (2, 1)]);
+        world.command(2, acquire(&["a"]));
+        world.run_for(SECOND * 5);
+        for turn in 0..6 {
+            let robot = turn % 2;
+            world.command(robot, acquire(&["a"]));
+            let entered = (0..24).find(|_| {
+                world.run_for(SECOND / 2);
+                mutex(&world, robot).crit()
+            });
+            assert!(entered.is_some(), "seed {seed}, turn {turn}");
+            world.command(robot, release(&["a"]));
+        }
+        world.wire.cut.clear();
+        world.run_for(SECOND * 10);
+        assert!(mutex(&world, 2).crit(), "seed {seed}");
+    }
+}
+
+#[test]
+fn a_robot_that_is_taken_for_deaf_has_its_turn_again_when_it_answers() {
+    // Robots 0 and 1 ask for the same all the time. Robot 2 was deaf, and must not wait behind them for ever.
+    for seed in 0..10 {
+        let mut world = world(3, seed, Wire::perfect(), false);
+        world.run_for(SECOND * 5);
+        world.wire.cut.extend([(0, 2), (1, 2)]);
+        world.command(2, acquire(&["a"]));
+        let mut entered = None;
+        for turn in 0..60 {
+            if turn == 30 {
+                world.wire.cut.clear();
+            }
+            for robot in [0, 1] {
+                world.command(robot, acquire(&["a"]));
+            }
+            world.run_for(SECOND / 2);
+            for robot in [0, 1] {
+                world.command(robot, release(&["a"]));
+            }
+            if mutex(&world, 2).crit() {
+                entered = entered.or(Some(turn));
+            }
+        }
+        assert!(
+            entered.is_some_and(|turn| turn < 45),
+            "seed {seed}: {entered:?}"
+        );
+    }
+}
+
+#[test]
 fn copies_of_the_requests_of_a_holder_that_has_crashed_do_not_keep_its_lease() {
     let wire = Wire {
         duplication: 1.0,

@@ -111,3 +111,30 @@ fn one_way_links_are_bypassed() {
         }
     }
 }
+
+#[test]
+fn a_robot_that_cannot_answer_those_that_it_hears_is_reached() {
+    // Robot 0 hears 2 alone, and is heard by 1 alone: no two robots can compare their memories with it.
+    for seed in 0..20 {
+        let make = Sharer::boxed(Options::default());
+        let mut wire = Wire::perfect();
+        wire.loss = if seed % 2 == 0 { 0.0 } else { 0.2 };
+        let mut world = World::new(3, seed, wire, None, make);
+        world.wire.cut.extend([(1, 0), (0, 2)]);
+        for round in 0..40 {
+            for robot in 0..3 {
+                world.command(robot, write(robot as u8, round));
+                world.command(robot, write_own(0, round));
+            }
+            world.run_for(Duration::from_millis(500));
+        }
+        world.run_for(Duration::from_seconds(20));
+        for robot in 0..3 {
+            for variable in 0..3 {
+                assert_eq!(read(&world, robot, variable), Some(39), "seed {seed}");
+            }
+            let everyone: Vec<_> = (0..3).map(|robot| (robot, 39)).collect();
+            assert_eq!(all(&world, robot, 0), everyone, "seed {seed}");
+        }
+    }
+}

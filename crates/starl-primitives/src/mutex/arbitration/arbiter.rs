@@ -29,9 +29,19 @@ pub(super) struct Arbiter {
     entries: BTreeMap<RobotId, Entry>,
     /// The last request of each robot that is over.
     finished: BTreeMap<RobotId, RequestId>,
-    /// The last request of each robot whose lease ended in silence, and its last round of asking.
-    expired: BTreeMap<RobotId, (RequestId, u32)>,
+    /// The last request of each robot that ended without a word.
+    expired: BTreeMap<RobotId, Expired>,
     pub numbers: Numbers,
+}
+
+/// A request whose time is over.
+#[derive(Clone, Copy, Debug)]
+struct Expired {
+    id: RequestId,
+    /// The last round of asking.
+    round: u32,
+    /// It was granted, and the robot did not hear of it.
+    is_deaf: bool,
 }
 
 impl Arbiter {
@@ -58,18 +68,28 @@ impl Arbiter {
                     *entry = Entry::new(wish, terms);
                 } else {
                     is_repeated = true;
-                    is_news = entry.wish.clock != wish.clock || entry.is_granted || wish.is_entered;
+                    is_news = entry.wish.clock != wish.clock
+                        || entry.is_granted
+                        || wish.is_entered
+                        || entry.is_last && wish.hears;
+                    entry.wish.is_entered = wish.is_entered;
                     // Late copies must not keep the lease of a robot that is gone.
                     if !is_copy(wish.round, entry.wish.round) {
-                        entry.until = terms.until();
                         entry.wish.round = wish.round;
+                        if wish.hears {
+                            entry.known = terms.now;
+                            entry.is_last = false;
+                        }
+                        if entry.may_be_renewed(terms) {
+                            entry.until = terms.until();
+                            entry.renewed = wish.round;
+                        }
                     }
                     entry.heard = terms.now;
-                    if terms.lease.is_none() {
+                    if terms.lease.is_none() || entry.is_last {
                         entry.told = None;
                     }
                     entry.wish.clock = wish.clock;
-                    entry.wish.is_entered = wish.is_entered;
                     entry.wish.number = entry.wish.number.max(wish.number);
                     if entry.is_granted {
                         // It may have given back some of it.
@@ -85,11 +105,16 @@ impl Arbiter {
                 return inquire(from, entry, false, post);
             }
             _ => {
-                let expired = self.expired.get(&from).filter(|(over, _)| *over == id);
-                if expired.is_some_and(|&(_, round)| is_copy(wish.round, round)) {
+                let expired = self.expired.get(&from).filter(|expired| expired.id == id);
+                if expired.is_some_and(|expired| is_copy(wish.round, expired.round)) {
                     return;
                 }
-                self.entries.insert(from, Entry::new(wish, terms));
+                let is_last = expired.is_some_and(|expired| expired.is_deaf) && !wish.hears;
+                let entry = Entry {
+                    is_last,
+                    ..Entry::new(wish, terms)
+                };
+                self.entries.insert(from, entry);
             }
         }
         if let Some(entry) = self.entries.get(&from).filter(|e| e.wish.is_entered) {
@@ -158,9 +183,9 @@ impl Arbiter {
         let granted = self.entries.iter().filter(|(_, entry)| entry.is_granted);
         let grants = granted.map(|(&robot, entry)| {
             // Renewals do not count.
-            let round = 0;
             let wish = Wish {
-                round,
+                round: 0,
+                hears: true,
                 ..entry.wish.clone()
             };
             (robot, wish, entry.number)
@@ -265,12 +290,13 @@ impl Arbiter {
         for id in self.finished.values_mut() {
             id.number = u64::from(random.bits());
         }
-        for (_, round) in self.expired.values_mut() {
-            *round = random.bits();
+        for expired in self.expired.values_mut() {
+            expired.round = random.bits();
         }
         for entry in self.entries.values_mut() {
             entry.is_granted = random.chance(0.5);
             entry.is_inquired = random.chance(0.5);
+            entry.is_last = random.chance(0.5);
             if random.chance(0.5) {
                 entry.wish.id.number = u64::from(random.bits());
                 entry.wish.attempt = random.bits();
@@ -320,17 +346,17 @@ impl Arbiter {
         if !entry.is_granted {
             // A grant is repeated for copies of requests too, and only later requests renew the lease.
             entry.until = terms.until();
+            entry.renewed = entry.wish.round;
+            entry.known = terms.now;
         }
         entry.is_granted = true;
         entry.is_inquired = false;
         entry.told = None;
-        let Wish {
-            id, attempt, round, ..
-        } = entry.wish;
+        let Wish { id, attempt, .. } = entry.wish;
         let grant = Packet::Grant {
             id,
             attempt,
-            round,
+            round: entry.renewed,
             clock: terms.clock,
             number: entry.number,
         };
@@ -338,11 +364,15 @@ impl Arbiter {
     }
 
     /// Tells a robot for which robots it waits, once for each time that it asks. With leases this is unnecessary,
-    /// because the grants of a crashed robot end, except for an arbiter that cannot grant anything.
+    /// because the grants of a crashed robot end, except for an arbiter that cannot grant anything, and for a robot that
+    /// must show that it hears.
     fn tell(&mut self, robot: RobotId, behind: RobotId, terms: Terms, post: &mut Post) {
         let entry = self.entries.get_mut(&robot);
         let is_new = |entry: &&mut Entry| entry.told != Some(behind);
-        if let Some(entry) = entry.filter(is_new).filter(|_| terms.tells) {
+        if let Some(entry) = entry
+            .filter(is_new)
+            .filter(|entry| terms.tells || entry.is_last)
+        {
             entry.told = Some(behind);
             let Wish { id, attempt, .. } = entry.wish;
             let wait = Packet::Wait {
@@ -364,7 +394,9 @@ impl Arbiter {
                 entry.until = entry.until.min(longest);
                 let is_over = entry.until <= terms.now;
                 if is_over {
-                    expired.insert(robot, (entry.wish.id, entry.wish.round));
+                    let is_deaf = entry.is_granted && entry.is_deaf(terms);
+                    let (id, round) = (entry.wish.id, entry.wish.round);
+                    expired.insert(robot, Expired { id, round, is_deaf });
                 }
                 !is_over
             });
@@ -400,6 +432,7 @@ mod tests {
             resources: Resources::from(["a".into()]),
             number: 0,
             is_entered: false,
+            hears: true,
             list: 0,
         };
         let (mut arbiter, mut post) = (Arbiter::default(), Post::default());

@@ -19,6 +19,12 @@ pub(super) struct Entry {
     pub heard: Time,
     /// The number of the grant.
     pub number: u64,
+    /// The round of asking since which the grant lasts.
+    pub renewed: u32,
+    /// When the robot last showed that it hears this arbiter, or was granted its request.
+    pub known: Time,
+    /// It comes after all others: the robot did not hear of an earlier grant, and may hear of none.
+    pub is_last: bool,
 }
 
 /// The conditions of an arbiter at one moment.
@@ -52,6 +58,7 @@ pub(super) fn is_later(number: u32, other: u32) -> bool {
 
 impl Entry {
     pub fn new(wish: Wish, terms: Terms) -> Entry {
+        let renewed = wish.round;
         Entry {
             wish,
             is_granted: false,
@@ -60,7 +67,22 @@ impl Entry {
             until: terms.until(),
             heard: terms.now,
             number: 0,
+            renewed,
+            known: terms.now,
+            is_last: false,
         }
+    }
+
+    /// Whether another round of asking makes the grant last longer. A robot that does not hear of its grant does not
+    /// keep it: it can only be heard, and would be in the way of all others for ever.
+    pub fn may_be_renewed(&self, terms: Terms) -> bool {
+        !self.is_granted || self.wish.is_entered || !self.is_deaf(terms)
+    }
+
+    /// Whether the robot has shown for a lease that it does not hear this arbiter.
+    pub fn is_deaf(&self, terms: Terms) -> bool {
+        let is_late = |lease| terms.now.since(self.known) >= lease || self.known > terms.now;
+        self.is_last || terms.lease.is_some_and(is_late)
     }
 
     /// Whether it is time to ask if the grant is still needed. A grant that does not end by itself is queried
@@ -84,8 +106,8 @@ impl Entry {
     }
 
     /// The order of requests: the earlier request goes first, by Lamport's clock.
-    pub fn rank(&self, robot: RobotId) -> (u64, RobotId) {
-        (self.wish.clock, robot)
+    pub fn rank(&self, robot: RobotId) -> (bool, u64, RobotId) {
+        (self.is_last, self.wish.clock, robot)
     }
 }
 

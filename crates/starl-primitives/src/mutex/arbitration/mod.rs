@@ -187,10 +187,15 @@ impl Arbitration {
                 .is_some_and(|request| request.id == id)
         };
         match packet {
-            Packet::Repeat { mut wish, attempts } => {
+            Packet::Repeat {
+                mut wish,
+                attempts,
+                heard,
+            } => {
                 let me = robot.id();
                 let mine = attempts.iter().find(|(arbiter, _)| *arbiter == me);
                 wish.attempt = mine.map_or(0, |&(_, attempt)| attempt);
+                wish.hears = heard.contains(&me);
                 self.take(common, robot, from, Packet::Request(wish), post);
             }
             Packet::Request(wish) if wish.list != self.list => {
@@ -244,6 +249,7 @@ impl Arbitration {
                     common.hear(clock);
                 }
                 if let Some(request) = &mut self.request {
+                    request.hear_of(from, terms.now);
                     hear(request, from, packet, enough, common, post);
                 }
                 self.go_on(common, robot, post);

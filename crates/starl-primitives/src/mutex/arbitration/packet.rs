@@ -11,16 +11,19 @@ use starl_core::RobotId;
 pub(super) enum Packet {
     /// To an arbiter: the sender wants these resources, or wants to keep them.
     Request(Wish),
-    /// To several arbiters: the same, with the attempts of those among them with which it is not the first.
+    /// To several arbiters: the same.
     Repeat {
         wish: Wish,
+        /// The attempts of the arbiters with which it is not the first.
         attempts: Vec<(RobotId, u32)>,
+        /// The arbiters that the sender has heard lately.
+        heard: Vec<RobotId>,
     },
     /// To a robot: as far as this arbiter is concerned, it may have what it asked for.
     Grant {
         id: RequestId,
         attempt: u32,
-        /// The latest round of asking that the arbiter had heard of.
+        /// The round of asking since which the grant lasts.
         round: u32,
         /// The arbiter's clock (Lamport's): later requests are to be later by it.
         clock: u64,
@@ -81,6 +84,8 @@ pub(super) struct Wish {
     pub number: u64,
     /// Whether the robot holds the resources, by this number.
     pub is_entered: bool,
+    /// Whether it has heard the arbiter lately, so that it knows of a grant.
+    pub hears: bool,
     /// A hash of the list of participants.
     pub list: u32,
     pub resources: Resources,

@@ -43,6 +43,19 @@ pub(super) struct Asked {
     /// Until when it has granted it, and with what number.
     pub granted: Option<(Time, u64)>,
     pub behind: Option<Behind>,
+    /// When it was heard of last.
+    heard: Option<Time>,
+}
+
+impl Asked {
+    /// Whether it was heard of within a lease.
+    fn is_heard(&self, now: Time, enough: Enough) -> bool {
+        let Enough::Majority(_, belief) = enough else {
+            return true;
+        };
+        self.heard
+            .is_some_and(|heard| heard <= now && now.since(heard) < belief)
+    }
 }
 
 impl Request {
@@ -103,6 +116,7 @@ impl Request {
             clock: self.clock,
             number: self.number,
             is_entered: self.is_entered,
+            hears: true,
             list: self.list,
             resources,
         }
@@ -133,9 +147,14 @@ impl Request {
             .asked
             .iter()
             .map(|(&arbiter, asked)| (arbiter, asked.attempt));
+        let heard = self
+            .asked
+            .iter()
+            .filter(|(_, asked)| asked.is_heard(now, enough));
         let repeat = Packet::Repeat {
             wish: self.wish(first, common),
             attempts: attempts.filter(|&(_, attempt)| attempt != 0).collect(),
+            heard: heard.map(|(&arbiter, _)| arbiter).collect(),
         };
         for arbiter in self.arbiters() {
             post.send(arbiter, repeat.clone());
@@ -156,6 +175,13 @@ impl Request {
         self.sent
             .back()
             .is_none_or(|&(_, at)| now.since(at) > span || at > now)
+    }
+
+    /// An arbiter was heard of.
+    pub fn hear_of(&mut self, arbiter: RobotId, now: Time) {
+        if let Some(asked) = self.asked.get_mut(&arbiter) {
+            asked.heard = Some(now);
+        }
     }
 
     /// An arbiter grants it.
@@ -218,6 +244,7 @@ impl Request {
         if let Some(asked) = self.asked.get_mut(&arbiter) {
             *asked = Asked {
                 attempt: asked.attempt.wrapping_add(1),
+                heard: asked.heard,
                 ..Asked::default()
             };
             post.send(arbiter, Packet::Request(self.wish(arbiter, common)));
