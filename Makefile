@@ -19,7 +19,7 @@ test: setup module-and-check page unit
 
 # The parts that test the whole command run two at a time, since browsers, Python and devices often wait. Each shows its
 # output when it ends. The parts that never wait come last.
-WHOLE = web python devices wasm trace schema portable docs faults examples deny
+WHOLE = python web devices wasm trace schema portable docs faults examples deny
 
 # One core links the page's module, and clippy uses the other.
 module-and-check: setup

@@ -3,6 +3,7 @@
 use crate::console::{grouped, rounded};
 use crate::report::{Breach, Ending, Excused, Failed, Property, Report, Robot, UNUSED, remark};
 use starl_sim::Outcome;
+use starl_sim::engine::Drops;
 use std::fmt::{self, Write};
 
 /// Larger fleets are summed up by model instead of robot by robot.
@@ -34,6 +35,25 @@ pub fn violations(report: &Report) -> String {
     text
 }
 
+/// Why datagrams were dropped, after a colon; nothing if none were.
+fn reasons(drops: &Drops) -> String {
+    let counts = [
+        (drops.range, "out of range"),
+        (drops.partition, "partition"),
+        (drops.down, "receiver down"),
+        (drops.bandwidth, "queue full"),
+        (drops.size, "too large"),
+    ];
+    let counts = counts.iter().filter(|(count, _)| *count > 0);
+    let reasons: Vec<String> = counts
+        .map(|(count, reason)| format!("{} {reason}", grouped(*count)))
+        .collect();
+    match reasons.is_empty() {
+        true => String::new(),
+        false => format!(": {}", reasons.join(", ")),
+    }
+}
+
 fn write(text: &mut String, report: &Report) -> fmt::Result {
     writeln!(text, "{}: {}", report.title, ending(report))?;
     writeln!(text)?;
@@ -47,11 +67,12 @@ fn write(text: &mut String, report: &Report) -> fmt::Result {
     )?;
     writeln!(
         text,
-        "messages    {} sent, {} delivered,\n            {} lost, {} dropped",
+        "messages    {} sent, {} delivered,\n            {} lost, {} dropped{}",
         grouped(messages.sent),
         grouped(messages.delivered),
         grouped(messages.lost),
-        grouped(messages.dropped)
+        grouped(messages.dropped),
+        reasons(&messages.drops)
     )?;
     if messages.retransmitted > 0 {
         let repeated = grouped(messages.retransmitted);

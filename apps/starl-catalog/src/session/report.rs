@@ -7,6 +7,7 @@ use starl_core::intervention::NetworkKnob;
 use starl_core::{Obstacle, Point, RobotId, WayPoint};
 use starl_lang::robot::RobotProgram;
 use starl_properties::Verdict;
+use starl_sim::engine::Drops;
 use starl_sim::{Run, Simulation};
 
 /// How far a run is.
@@ -75,6 +76,8 @@ pub struct Messages {
     pub lost: u64,
     /// Dropped for another reason.
     pub dropped: u64,
+    /// These by reason.
+    pub drops: Drops,
     /// Sent again.
     pub retransmitted: u64,
 }
@@ -218,6 +221,7 @@ impl Messages {
             delivered: tally.delivered,
             lost: tally.lost,
             dropped: tally.dropped,
+            drops: tally.drops,
             retransmitted: tally.retransmitted,
         }
     }

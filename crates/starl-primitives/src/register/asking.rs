@@ -37,12 +37,18 @@ impl Register {
         })
     }
 
-    /// Asks those that have not answered.
+    /// Asks those that have not answered. A robot that has just started waits until it is up: before, it may not know that
+    /// the life in which another one answers is over.
     pub(super) fn ask(&mut self, robot: &mut Robot<'_>, number: u32) {
+        let me = robot.id();
+        if !self.is_up() && self.is_member(robot, me) {
+            let after = self.options.timeout(0);
+            return robot.set_timer(self.timer(Alarm::Operation(number)), after);
+        }
         let Some(question) = self.question(robot, number) else {
             return;
         };
-        let (me, mut missing) = (robot.id(), self.members(robot));
+        let mut missing = self.members(robot);
         let Some(operation) = self.operations.get_mut(&number) else {
             return;
         };
@@ -114,6 +120,9 @@ impl Register {
     /// A participant is believed to be up again.
     pub(super) fn trust(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
         self.suspects.remove(&peer);
+        if !self.is_up() {
+            return;
+        }
         let asked: Vec<u32> = self
             .operations
             .iter()

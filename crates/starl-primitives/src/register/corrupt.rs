@@ -22,6 +22,7 @@ impl Register {
                 copy.promised = Some(tag(random));
             }
         }
+        self.founders.clear();
         for life in self.lives.all_mut() {
             *life = random.magnitude();
         }

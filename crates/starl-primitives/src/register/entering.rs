@@ -5,7 +5,7 @@
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
-use starl_core::{RobotId, Time};
+use starl_core::{Duration, RobotId, Time};
 
 /// Whether a robot answers others.
 #[derive(Clone, Debug)]
@@ -15,6 +15,9 @@ pub(super) enum Standing {
     /// In the life with this number.
     Up(u64),
 }
+
+/// For so long a robot that is up and not heard any more may be up still.
+const LASTING: Duration = Duration::from_seconds(10);
 
 /// How far a robot is that has just started.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +35,14 @@ pub(super) struct Entering {
     /// The knowledge of others in this stage.
     pub heard: BTreeMap<RobotId, Heard>,
     pub repetitions: u32,
+    /// When this robot heard one that is up.
+    pub heard_up: Option<Time>,
+    /// When one that has just started too said that it had.
+    pub told_up: Option<Time>,
+    /// A robot that is up had heard this one, as it is now, when the fleet began.
+    pub is_founder: bool,
+    /// The robots that it had heard then, with their incarnations.
+    pub founders: BTreeMap<RobotId, u32>,
 }
 
 /// A new robot's knowledge of another one.
@@ -65,6 +76,10 @@ impl Standing {
     }
 }
 
+fn is_recent(heard: Option<Time>, now: Time) -> bool {
+    heard.is_some_and(|heard| heard <= now && now.since(heard) < LASTING)
+}
+
 impl Entering {
     pub fn next_stage(&mut self, life: Option<u64>) {
         let heard = core::mem::take(&mut self.heard).into_iter();
@@ -86,8 +101,31 @@ impl Entering {
         self.life.is_none() || self.new_before.get(&peer) == Some(&incarnation)
     }
 
-    /// Whether this stage has ended; `majority` of `others` participants and this one are a majority.
-    pub fn is_over(&self, others: usize, majority: usize, has_waited: bool) -> bool {
+    /// The robots that had just started when the fleet began, if it begins now or another robot has told so. Those heard
+    /// in the first stage count, because they ask as the same ones later.
+    pub fn founders(&mut self) -> BTreeMap<RobotId, u32> {
+        let begins = |heard: &Heard| matches!(heard, Heard::New(_));
+        match self.is_founder {
+            true => core::mem::take(&mut self.founders),
+            false if self.heard.values().all(begins) => core::mem::take(&mut self.new_before),
+            false => BTreeMap::new(),
+        }
+    }
+
+    /// Whether this robot has heard one that is up, lately.
+    pub fn hears_up(&self, now: Time) -> bool {
+        is_recent(self.heard_up, now)
+    }
+
+    /// Whether the fleet may be new, as far as robots that are up have been heard. What others have heard is not passed
+    /// on, or it would never end.
+    pub fn may_begin(&self, now: Time) -> bool {
+        !is_recent(self.heard_up, now) && !is_recent(self.told_up, now)
+    }
+
+    /// Whether this stage has ended; `majority` of `others` participants and this one are a majority. `may_begin` if the
+    /// fleet may be new.
+    pub fn is_over(&self, others: usize, majority: usize, may_begin: bool) -> bool {
         let (mut up, mut new, mut unfinished) = (0, 0, 0);
         for (&peer, heard) in &self.heard {
             match heard {
@@ -96,8 +134,9 @@ impl Entering {
                 _ => unfinished += 1,
             }
         }
-        up >= majority
+        self.is_founder
+            || up >= majority
             || up + new == others
-            || up + unfinished == 0 && new + 1 >= majority && has_waited
+            || up + unfinished == 0 && new + 1 >= majority && may_begin
     }
 }

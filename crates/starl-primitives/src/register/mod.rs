@@ -102,6 +102,8 @@ pub struct Register {
     participants: Option<BTreeSet<RobotId>>,
     incarnation: Incarnation,
     standing: Standing,
+    /// The robots that had just started when this one began with a new fleet, with their incarnations.
+    founders: BTreeMap<RobotId, u32>,
     /// Crash vector: the latest life of each robot that is known.
     lives: Lives,
     /// Stands for the lives that are on storage; none if none are.
@@ -174,6 +176,7 @@ impl Register {
             participants,
             incarnation: Incarnation::default(),
             standing: Standing::default(),
+            founders: BTreeMap::new(),
             lives: Lives::default(),
             saved_lives: None,
             replica: Replica::default(),
@@ -280,11 +283,23 @@ impl Register {
             return;
         };
         self.learn_lives(robot, from, &datagram);
+        if let Standing::New(entering) = &mut self.standing
+            && datagram.life > 0
+        {
+            entering.heard_up = Some(robot.now());
+        }
         let is_past = self.is_member(robot, from) && datagram.life < self.lives.of(from);
         match datagram.content {
             Content::Hello { id, life, after } => self.welcome(robot, from, id, life, after),
-            Content::Told { id, life, is_up } if self.asks(id) => {
-                self.told(robot, from, datagram.incarnation, life, is_up);
+            Content::Told {
+                id,
+                life,
+                is_up,
+                hears_up,
+                founders,
+            } if self.asks(id) => {
+                let standing = (is_up, hears_up);
+                self.told(robot, from, datagram.incarnation, life, standing, founders);
             }
             Content::State { id, page } if !is_past && self.asks(id) => {
                 self.take_page(robot, from, datagram.life, page);

@@ -35,6 +35,10 @@ pub(super) enum Content {
         id: QuestionId,
         life: u64,
         is_up: bool,
+        /// Whether I have heard a robot that is up, lately.
+        hears_up: bool,
+        /// If the fleet began when you had just started, as you are now: the robots that had, with their incarnations.
+        founders: Vec<(RobotId, u32)>,
     },
     /// To one that has said the number of its new life: copies.
     State { id: QuestionId, page: Page },

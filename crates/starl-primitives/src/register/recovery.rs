@@ -7,9 +7,12 @@
 //!   stored or promised, and robots that count this robot's acknowledgements from an earlier life hear of its new
 //!   one from one of them; or
 //! - all others, up or just started themselves: nothing more can be known; or
-//! - for some time no robot that is up, and so many new robots that they are a majority together. They were
-//!   new in both stages, so there was a moment at which all of them were recovering. As long as no majority
-//!   ever recovers later, it was the fleet's own start.
+//! - for some time no robot that is up, nor a new one that has heard one, and so many new robots that they are a
+//!   majority together. They were new in both stages, so there was a moment at which all of them were recovering. As
+//!   long as no majority ever recovers later, it was the fleet's own start; or
+//! - a robot that is up, and had heard this one at that moment, in its present life. Then it has acknowledged nothing
+//!   since, and is as if it had been up from then on. Otherwise the robots that are up first could not help the
+//!   others if some fail soon after the start.
 
 use super::entering::{Heard, Standing};
 use super::lives::FIRST;
@@ -39,7 +42,15 @@ impl Register {
             self.lives.learn(from, life);
         }
         let is_up = self.is_up();
-        let content = if life.is_some() && is_up {
+        let founders = match self.founders.get(&from) == Some(&id.incarnation) {
+            true if is_up => self
+                .founders
+                .iter()
+                .map(|(&peer, &life)| (peer, life))
+                .collect(),
+            _ => Vec::new(),
+        };
+        let content = if life.is_some() && is_up && founders.is_empty() {
             let room = self.options.longest_datagram.saturating_sub(60);
             let page = self.replica.page(after, room);
             Content::State { id, page }
@@ -47,7 +58,17 @@ impl Register {
             let known = self.lives.of(from);
             // A new robot may not know of the first life.
             let life = if is_up || known > FIRST { known } else { 0 };
-            Content::Told { id, life, is_up }
+            let hears_up = match &self.standing {
+                Standing::New(entering) => entering.hears_up(robot.now()),
+                Standing::Up(_) => true,
+            };
+            Content::Told {
+                id,
+                life,
+                is_up,
+                hears_up,
+                founders,
+            }
         };
         self.send(robot, Destination::Robot(from), content);
     }
@@ -68,7 +89,8 @@ impl Register {
         from: RobotId,
         incarnation: u32,
         life: u64,
-        is_up: bool,
+        (is_up, hears_up): (bool, bool),
+        founders: Vec<(RobotId, u32)>,
     ) {
         if !self.is_member(robot, from) {
             return;
@@ -77,9 +99,16 @@ impl Register {
         let Standing::New(entering) = &mut self.standing else {
             return;
         };
+        if hears_up {
+            entering.told_up = Some(robot.now());
+        }
+        let is_founder = is_up && !founders.is_empty();
+        if is_founder {
+            (entering.is_founder, entering.founders) = (true, founders.into_iter().collect());
+        }
         let known = entering.heard.get(&from);
         let is_known = entering.life.is_some() || matches!(known, Some(Heard::Up { .. }));
-        if is_up && is_known {
+        if is_up && is_known && !is_founder {
             return;
         }
         entering.told = entering.told.max(life);
@@ -151,16 +180,18 @@ impl Register {
                 Heard::Up { life, .. } => *life >= lives.of(peer),
             });
             let begun = entering.begun.unwrap_or(now);
-            if !entering.is_over(others, majority, now.since(begun) >= grace) {
+            let may_begin = now.since(begun) >= grace && entering.may_begin(now);
+            if !entering.is_over(others, majority, may_begin) {
                 return;
             }
             match entering.life {
                 Some(life) if life >= known => {
+                    self.founders = entering.founders();
                     self.standing = Standing::Up(life);
                     self.lives.learn(me, life);
                     robot.cancel_timer(self.timer(Alarm::Enter));
                     self.report_up(robot, life);
-                    return self.answer_all_own(robot);
+                    return self.ask_all(robot);
                 }
                 Some(_) => entering.next_stage(None),
                 None => {
@@ -178,12 +209,13 @@ impl Register {
         robot.report(self.port, RegisterEvent::Up { life });
     }
 
-    /// This robot's own answers to what it has begun already.
-    fn answer_all_own(&mut self, robot: &mut Robot<'_>) {
+    /// What it has begun already is asked, of itself too.
+    fn ask_all(&mut self, robot: &mut Robot<'_>) {
         let numbers: Vec<u32> = self.operations.keys().copied().collect();
         for number in numbers {
             self.answer_own(robot, number);
             self.advance(robot, number);
+            self.ask(robot, number);
         }
     }
 
@@ -208,11 +240,12 @@ impl Register {
         if let Standing::New(entering) = &mut self.standing {
             entering.begun = entering.begun.map(|begun| begun.min(now));
             let mut heard = entering.heard.iter();
+            let hears_up = entering.hears_up(now);
             let is_mixed = heard.any(|(&peer, heard)| match heard {
                 Heard::New(incarnation) => !entering.is_new(peer, *incarnation),
-                Heard::Up { .. } => false,
+                Heard::Up { .. } => !hears_up,
             });
-            // Robots that have started since are asked in both stages.
+            // Robots that have started since are asked in both stages. Those that were up may have failed.
             if is_mixed {
                 entering.next_stage(None);
             }

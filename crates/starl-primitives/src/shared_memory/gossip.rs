@@ -13,8 +13,9 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::{Duration, Random, RobotId};
 
-/// After so many comparisons without an answer a robot is taken for one that is only heard.
-const UNANSWERED: u8 = 4;
+/// After so many comparisons without an answer a robot is taken for one that is only heard. With a third of all datagrams
+/// lost few are without an answer that often.
+const UNANSWERED: u8 = 8;
 
 /// So many robots at most are named in an announcement.
 const MOST_COMPARED: usize = 8;
@@ -72,7 +73,7 @@ impl Gossip {
     pub fn compare_with(&mut self, peer: RobotId) {
         let unanswered = self.unanswered.entry(peer).or_default();
         *unanswered = unanswered.saturating_add(1);
-        if *unanswered > UNANSWERED {
+        if *unanswered >= UNANSWERED {
             self.unasked = FARTHEST;
         }
     }

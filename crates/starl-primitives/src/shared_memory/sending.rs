@@ -72,6 +72,7 @@ impl SharedMemory {
         let now = robot.now();
         self.store.refresh(now);
         let differing = self.gossip.differing.take();
+        let differing = differing.filter(|peer| robot.fleet().binary_search(peer).is_ok());
         if self.gossip.equal < self.options.redundancy.max(1) || self.gossip.unasked > 0 {
             if let Some(peer) = differing {
                 self.gossip.compare_with(peer);

@@ -86,6 +86,45 @@ fn a_robot_that_hears_others_than_hear_it_blocks_no_majority() {
 }
 
 #[test]
+fn robots_that_fail_soon_after_the_start_leave_a_majority_that_works() {
+    for seed in 0..60 {
+        let wire = Wire {
+            loss: [0.0, 0.3][seed as usize % 2],
+            ..Wire::perfect()
+        };
+        let mut world = world(5, seed, wire, false);
+        world.run_for(Duration::from_millis(20 + 37 * seed));
+        world.crash(0);
+        world.crash(seed as usize % 4 + 1);
+        world.run_for(SECOND * 20);
+        for robot in (1..5).filter(|&robot| robot != seed as usize % 4 + 1) {
+            world.command(robot, acquire(&["a"]));
+            let entered = (0..40).find(|_| {
+                world.run_for(SECOND / 2);
+                mutex(&world, robot).crit()
+            });
+            assert!(entered.is_some(), "seed {seed}, robot {robot}");
+            world.command(robot, release(&["a"]));
+        }
+    }
+}
+
+#[test]
+fn a_robot_that_hears_a_minority_keeps_no_grants() {
+    for seed in 0..10 {
+        let mut world = world(4, seed, Wire::perfect(), false);
+        world.run_for(SECOND * 5);
+        world.wire.cut.extend([(0, 3), (1, 3)]);
+        world.run_for(SECOND * 10);
+        world.command(3, acquire(&["a"]));
+        world.run_for(SECOND);
+        world.command(0, acquire(&["a"]));
+        world.run_for(SECOND * 12);
+        assert!(mutex(&world, 0).crit(), "seed {seed}");
+    }
+}
+
+#[test]
 fn a_robot_that_is_taken_for_deaf_has_its_turn_again_when_it_answers() {
     // Robots 0 and 1 ask for the same all the time. Robot 2 was deaf, and must not wait behind them for ever.
     for seed in 0..10 {

@@ -120,3 +120,58 @@ fn values_stored_by_a_majority_spread_to_the_others() {
     world.run_for(SECOND * 10);
     assert_eq!(known(&world, 3), Some(5));
 }
+
+#[test]
+fn robots_that_fail_soon_after_the_start_leave_a_majority_that_works() {
+    for seed in 0..60 {
+        let wire = Wire {
+            loss: [0.0, 0.3][seed as usize % 2],
+            ..Wire::perfect()
+        };
+        let mut world = World::new(5, seed, wire, None, Keeper::boxed(false, None));
+        world.run_for(Duration::from_millis(20 + 37 * seed));
+        world.crash(0);
+        world.crash(seed as usize % 4 + 1);
+        let rest: Vec<usize> = (1..5)
+            .filter(|&robot| robot != seed as usize % 4 + 1)
+            .collect();
+        world.run_for(SECOND * 20);
+        for (round, &robot) in rest.iter().enumerate() {
+            let value = round as u32 + 1;
+            world.command(robot, write(value));
+            let done = (0..40).find(|_| {
+                world.run_for(SECOND);
+                !matches!(status(&world, robot), Status::Pending | Status::NoQuorum)
+            });
+            assert!(done.is_some(), "seed {seed}, robot {robot}");
+            assert_eq!(
+                result(&world, robot),
+                Some(value),
+                "seed {seed}, robot {robot}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_founder_that_restarts_is_none() {
+    // Robot 1 forgets what it has acknowledged, and must learn it again although it was there when the fleet began.
+    for seed in 0..20 {
+        let mut world = World::new(3, seed, Wire::perfect(), None, Keeper::boxed(false, None));
+        world.run_for(SECOND * 20);
+        world.wire.cut.extend([(0, 2), (2, 0)]);
+        world.command(2, write(7));
+        world.run_for(SECOND * 2);
+        assert_eq!(result(&world, 2), Some(7), "seed {seed}");
+        world.crash(1);
+        world.wire.cut.extend([(1, 2), (2, 1)]);
+        world.start(1);
+        world.run_for(SECOND * 10);
+        world.command(1, read());
+        world.run_for(SECOND * 10);
+        assert_eq!(status(&world, 1), Status::NoQuorum, "seed {seed}");
+        world.wire.cut.clear();
+        world.run_for(SECOND * 10);
+        assert_eq!(result(&world, 1), Some(7), "seed {seed}");
+    }
+}

@@ -25,7 +25,7 @@ pub use fault::timeline;
 pub use inspect::{Mail, Standing};
 pub use intervene::InterventionError;
 pub use populate::{Complaint, Programs, StartError};
-pub use record::Tally;
+pub use record::{Drops, Tally};
 pub use simulation::{Progress, Simulation};
 
 use starl_core::Random;

@@ -1,6 +1,7 @@
 //! The stored results of events: a digest per robot, counts, and the records themselves if
 //! requested.
 
+use serde::Serialize;
 use starl_core::event::{DropReason, TransferEvent};
 use starl_core::{Digest, Event, Record, RobotId, Time};
 
@@ -15,11 +16,49 @@ pub struct Tally {
     pub lost: u64,
     /// Datagrams dropped for any other reason.
     pub dropped: u64,
+    /// These by reason.
+    pub drops: Drops,
     /// Retransmissions of Broadcast, Geocast and Unicast, for each receiver without acknowledgement.
     /// Retransmissions of other primitives do not appear in events, and are not counted here.
     pub retransmitted: u64,
     /// The number of contacts between two bodies, or a body and an obstacle.
     pub collisions: u64,
+}
+
+/// Counts of datagrams that were not lost but dropped, by the reasons of [`DropReason`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Drops {
+    /// Out of radio range or sight.
+    pub range: u64,
+    /// A partition.
+    pub partition: u64,
+    /// The receiver was down.
+    pub down: u64,
+    /// The sender's queue was full.
+    pub bandwidth: u64,
+    /// Larger than the network carries.
+    pub size: u64,
+}
+
+impl Drops {
+    fn count(&mut self, reason: DropReason) {
+        *match reason {
+            DropReason::Loss => return,
+            DropReason::Range => &mut self.range,
+            DropReason::Partition => &mut self.partition,
+            DropReason::Down => &mut self.down,
+            DropReason::Bandwidth => &mut self.bandwidth,
+            DropReason::Size => &mut self.size,
+        } += 1;
+    }
+
+    fn add(&mut self, other: &Drops) {
+        self.range += other.range;
+        self.partition += other.partition;
+        self.down += other.down;
+        self.bandwidth += other.bandwidth;
+        self.size += other.size;
+    }
 }
 
 impl Tally {
@@ -29,6 +68,7 @@ impl Tally {
         self.delivered += other.delivered;
         self.lost += other.lost;
         self.dropped += other.dropped;
+        self.drops.add(&other.drops);
         self.retransmitted += other.retransmitted;
         self.collisions += other.collisions;
     }
@@ -41,7 +81,10 @@ impl Tally {
                 reason: DropReason::Loss,
                 ..
             } => self.lost += 1,
-            Event::Dropped { .. } => self.dropped += 1,
+            Event::Dropped { reason, .. } => {
+                self.dropped += 1;
+                self.drops.count(*reason);
+            }
             Event::Primitive { event, .. } => {
                 let is_again = matches!(event.transfer(), Some(TransferEvent::Retransmit { .. }));
                 self.retransmitted += u64::from(is_again);

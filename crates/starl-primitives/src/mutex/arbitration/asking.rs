@@ -8,7 +8,7 @@ use super::request::Request;
 use super::{Arbitration, Post, is_lease};
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeSet;
-use starl_core::{Duration, Robot};
+use starl_core::{Duration, Robot, RobotId};
 
 /// A robot renews what it holds when less than one part in so many of a lease is left.
 const RENEWED: u64 = 2;
@@ -48,6 +48,14 @@ impl Arbitration {
         }
     }
 
+    /// Whether this robot may hear from enough robots for a lease. One that does not would keep the grants of those that
+    /// it hears.
+    fn trusts_majority(&self, common: &Common) -> bool {
+        let is_suspected = |peer: &&RobotId| common.suspects.contains(peer);
+        let suspected = self.everyone.iter().filter(is_suspected).count();
+        suspected < self.everyone.len().div_ceil(2)
+    }
+
     /// The participants have changed: grants of the old ones do not count among the new ones.
     pub(super) fn change_list(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let Some(request) = self.request.take() else {
@@ -82,6 +90,7 @@ impl Arbitration {
     /// Sends the request, repeats it, or renews the lease.
     pub(super) fn repeat(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let (now, enough) = (robot.now(), self.enough(common));
+        let is_hopeless = !self.trusts_majority(common);
         let mut post = Post::default();
         let Some(request) = &mut self.request else {
             return;
@@ -89,6 +98,9 @@ impl Arbitration {
         let mut after = common.options.timeout(request.repetitions);
         if let Enough::Majority(majority, belief) = enough {
             after = after.min(belief / REPETITIONS);
+            if is_hopeless && !request.is_entered {
+                return robot.set_timer(common.timer(Alarm::Repeat), after);
+            }
             if request.is_entered {
                 let until = request.held_until(now, majority, belief);
                 if until <= now + MARGIN {

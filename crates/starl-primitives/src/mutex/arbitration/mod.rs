@@ -220,8 +220,12 @@ impl Arbitration {
                 let (left, number) = (Resources::new(), 0);
                 post.send(from, Packet::Release { id, left, number });
             }
-            Packet::Recall { nonce, list } => {
-                self.answer(common, robot, from, (nonce, list), post);
+            Packet::Recall {
+                nonce,
+                list,
+                incarnation,
+            } => {
+                self.answer(common, robot, (from, incarnation), (nonce, list), post);
             }
             Packet::Recalled { list, .. } if list != self.list => {}
             Packet::Recalled {
@@ -230,10 +234,11 @@ impl Arbitration {
                 number,
                 remembers,
                 incarnation,
+                founders,
                 ..
             } => {
                 let forgot = (!remembers).then_some(incarnation);
-                if self.recovery.hear(from, nonce, forgot) {
+                if self.recovery.hear(from, nonce, forgot, founders) {
                     self.arbiter.numbers.raise_floor(number);
                     if let Some(wish) = holds {
                         self.arbiter.reinstate(from, wish, terms);

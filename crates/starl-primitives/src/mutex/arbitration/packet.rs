@@ -30,7 +30,7 @@ pub(super) enum Packet {
         /// The grant's number, greater than all before it that were for one of its resources.
         number: u64,
     },
-    /// To a robot: it has to wait. With leases only where the arbiter grants nothing.
+    /// To a robot: it has to wait. With leases only where the arbiter grants nothing, or ranks the request last.
     Wait {
         id: RequestId,
         attempt: u32,
@@ -54,7 +54,12 @@ pub(super) enum Packet {
     /// To a robot: its request counts as older than another that it has made.
     Outdated { id: RequestId },
     /// To all: an arbiter that remembers nothing asks what it had granted.
-    Recall { nonce: u32, list: u32 },
+    Recall {
+        nonce: u32,
+        list: u32,
+        /// The life of the sender.
+        incarnation: u32,
+    },
     /// The answer.
     Recalled {
         nonce: u32,
@@ -67,6 +72,8 @@ pub(super) enum Packet {
         remembers: bool,
         /// In which of its lives.
         incarnation: u32,
+        /// If the fleet began when the arbiter, in its present life, remembered nothing: the robots that did not either.
+        founders: Vec<(RobotId, u32)>,
     },
 }
 

@@ -64,8 +64,7 @@ impl Arbitration {
 
     /// This robot is an arbiter from now on; `is_anew` if the last number is unknown.
     pub(super) fn begin_to_grant(&mut self, common: &Common, robot: &mut Robot<'_>, is_anew: bool) {
-        self.recovery.is_ready = true;
-        self.recovery.remembers = true;
+        self.recovery.end(is_anew);
         let participants = self.everyone.len() as u32;
         let ready = MutexEvent::Ready {
             participants,
@@ -78,17 +77,22 @@ impl Arbitration {
         robot.report(common.port, ready);
     }
 
-    fn ask_others(&mut self, common: &Common, robot: &mut Robot<'_>, post: &mut Post) {
+    fn ask_others(&mut self, common: &mut Common, robot: &mut Robot<'_>, post: &mut Post) {
         let to_ask = self.recovery.to_ask(&common.others(robot));
         let until_more =
             lease(common).and_then(|lease| self.recovery.until_more(robot.now(), lease));
-        let list = self.list;
+        let (list, incarnation) = (self.list, common.incarnation.of(robot));
         let Some(begun) = self.recovery.asking() else {
             return;
         };
         let nonce = begun.nonce;
         for peer in to_ask {
-            post.send(peer, Packet::Recall { nonce, list });
+            let recall = Packet::Recall {
+                nonce,
+                list,
+                incarnation,
+            };
+            post.send(peer, recall);
         }
         let timeout = common.options.timeout(begun.repetitions);
         let timeout = until_more.map_or(timeout, |more| timeout.min(more));
@@ -125,7 +129,7 @@ impl Arbitration {
         &mut self,
         common: &mut Common,
         robot: &mut Robot<'_>,
-        from: RobotId,
+        (from, life): (RobotId, u32),
         (nonce, list): (u32, u32),
         post: &mut Post,
     ) {
@@ -157,6 +161,7 @@ impl Arbitration {
             },
             remembers,
             incarnation: common.incarnation.of(robot),
+            founders: self.recovery.founders_with(from, life),
         };
         post.send(from, answer);
     }

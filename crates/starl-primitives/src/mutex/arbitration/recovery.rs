@@ -17,6 +17,10 @@
 //! continue from the time in milliseconds, the latest among those that have forgotten: no counting is as fast, so they
 //! grow unless clocks are wrong. The robot waits for silent robots, whether they are down or disconnected.
 //!
+//! A robot that begins so remembers the others of that majority. It tells them, as long as they have not restarted: such
+//! a robot has granted nothing since, and is ready when no robot can enter by a grant from before. Otherwise the robots
+//! that are ready first could not help the others if some fail soon after the start.
+//!
 //! After a change of participants all of the new ones must answer, after they have changed too: two
 //! quorums of different lists may be disjoint.
 
@@ -35,6 +39,8 @@ pub(super) struct Recovery {
     pub is_ready: bool,
     /// Whether it has been ready since the robot's start, so that it knows its grants.
     pub remembers: bool,
+    /// The robots that remembered nothing when this one began with a new fleet, with their lives.
+    founders: BTreeMap<RobotId, u32>,
 }
 
 /// An arbiter that asks.
@@ -52,6 +58,8 @@ pub(super) struct Begun {
     answers: BTreeMap<RobotId, Option<u32>>,
     /// The robots that had forgotten before this robot asked with this nonce, with their lives.
     forgot_before: BTreeMap<RobotId, u32>,
+    /// The founders, if another robot has told that this one is one of them.
+    founders: Vec<(RobotId, u32)>,
     /// How often it has asked.
     pub repetitions: u32,
 }
@@ -81,8 +89,31 @@ impl Recovery {
             is_silence_over: false,
             answers: BTreeMap::new(),
             forgot_before: BTreeMap::new(),
+            founders: Vec::new(),
             repetitions: 0,
         });
+        self.founders.clear();
+    }
+
+    /// It is ready and remembers what it grants from now on.
+    pub fn end(&mut self, is_anew: bool) {
+        if let Some(begun) = &self.begun {
+            // They ask as the same ones later, so that they need not have answered once more.
+            self.founders = match is_anew {
+                true => begun.forgot_before.clone(),
+                false => begun.founders.iter().copied().collect(),
+            };
+        }
+        (self.is_ready, self.remembers) = (true, true);
+    }
+
+    /// The robots that remembered nothing when the fleet began, if this robot, in this life, is one of them.
+    pub fn founders_with(&self, robot: RobotId, life: u32) -> Vec<(RobotId, u32)> {
+        let founders = self.founders.iter().map(|(&peer, &life)| (peer, life));
+        match self.remembers && self.founders.get(&robot) == Some(&life) {
+            true => founders.collect(),
+            false => Vec::new(),
+        }
     }
 
     /// The asking that is under way.
@@ -159,10 +190,19 @@ impl Recovery {
     }
 
     /// Handles an answer, with the life of a robot that has forgotten; false if it answers another question.
-    pub fn hear(&mut self, from: RobotId, nonce: u32, forgot: Option<u32>) -> bool {
+    pub fn hear(
+        &mut self,
+        from: RobotId,
+        nonce: u32,
+        forgot: Option<u32>,
+        founders: Vec<(RobotId, u32)>,
+    ) -> bool {
         match self.asking() {
             Some(begun) if begun.nonce == nonce => {
                 begun.answers.insert(from, forgot);
+                if !founders.is_empty() {
+                    begun.founders = founders;
+                }
                 true
             }
             _ => false,
@@ -190,7 +230,10 @@ impl Recovery {
         let is_late = self.has_asked_for(lease * 2, now);
         if !begun.is_silence_over || begun.is_change && !all {
             Outlook::Unready
-        } else if remember.count() > count - majority || begun.is_change && self.remembers {
+        } else if remember.count() > count - majority
+            || !begun.founders.is_empty() && !begun.is_change
+            || begun.is_change && self.remembers
+        {
             Outlook::Ready
         } else if forgot >= majority && (all || is_late) {
             Outlook::ReadyWithoutNumbers
@@ -203,6 +246,7 @@ impl Recovery {
     pub fn corrupt(&mut self, random: &mut Random) {
         self.is_ready = random.chance(0.5);
         self.begun = None;
+        self.founders.clear();
     }
 }
 
@@ -229,12 +273,24 @@ mod tests {
         let others = [RobotId(1), RobotId(2)];
         let mut recovery = Recovery::default();
         recovery.begin(5, now, false);
-        assert!(others.iter().all(|&peer| recovery.hear(peer, 5, None)));
+        assert!(
+            others
+                .iter()
+                .all(|&peer| recovery.hear(peer, 5, None, Vec::new()))
+        );
         assert!(recovery.ends_stage(now, &others, lease));
-        assert!(!others.iter().any(|&peer| recovery.hear(peer, 5, None)));
+        assert!(
+            !others
+                .iter()
+                .any(|&peer| recovery.hear(peer, 5, None, Vec::new()))
+        );
         let outlook = recovery.outlook(now, &others, Some(lease));
         assert_eq!(outlook, Outlook::Unready);
-        assert!(others.iter().all(|&peer| recovery.hear(peer, 6, None)));
+        assert!(
+            others
+                .iter()
+                .all(|&peer| recovery.hear(peer, 6, None, Vec::new()))
+        );
         let outlook = recovery.outlook(now, &others, Some(lease));
         assert_eq!(outlook, Outlook::Ready);
     }
