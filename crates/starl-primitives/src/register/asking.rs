@@ -42,8 +42,8 @@ impl Register {
     pub(super) fn ask(&mut self, robot: &mut Robot<'_>, number: u32) {
         let me = robot.id();
         if !self.is_up() && self.is_member(robot, me) {
-            let after = self.options.timeout(0);
-            return robot.set_timer(self.timer(Alarm::Operation(number)), after);
+            let pause = self.options.timeout(0);
+            return robot.set_timer(self.timer(Alarm::Operation(number)), pause);
         }
         let Some(question) = self.question(robot, number) else {
             return;

@@ -117,8 +117,8 @@ impl Entering {
         is_recent(self.heard_up, now)
     }
 
-    /// Whether the fleet may be new, as far as robots that are up have been heard. What others have heard is not passed
-    /// on, or it would never end.
+    /// Whether the fleet may be new, as far as robots that are up have been heard. A robot does not pass on what others have
+    /// heard, or it would never end.
     pub fn may_begin(&self, now: Time) -> bool {
         !is_recent(self.heard_up, now) && !is_recent(self.told_up, now)
     }

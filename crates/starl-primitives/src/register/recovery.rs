@@ -209,7 +209,7 @@ impl Register {
         robot.report(self.port, RegisterEvent::Up { life });
     }
 
-    /// What it has begun already is asked, of itself too.
+    /// Asks the questions of operations that have begun already, this robot too.
     fn ask_all(&mut self, robot: &mut Robot<'_>) {
         let numbers: Vec<u32> = self.operations.keys().copied().collect();
         for number in numbers {

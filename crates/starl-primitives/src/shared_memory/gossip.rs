@@ -13,14 +13,14 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::{Duration, Random, RobotId};
 
-/// After so many comparisons without an answer a robot is taken for one that is only heard. With a third of all datagrams
-/// lost few are without an answer that often.
+/// After this number of comparisons without an answer, a robot is taken for one that is only heard. With a third of all
+/// datagrams lost, this is rarely wrong.
 const UNANSWERED: u8 = 8;
 
-/// So many robots at most are named in an announcement.
+/// The greatest number of robots that an announcement names.
 const MOST_COMPARED: usize = 8;
 
-/// So far from a robot that compares in vain others send elements unasked, datagrams.
+/// The number of hops from a robot without answers within which others send elements unasked, plus one.
 pub(super) const FARTHEST: u8 = 8;
 
 /// The rhythm of announcements.
@@ -42,7 +42,7 @@ pub(super) struct Gossip {
     unanswered: BTreeMap<RobotId, u8>,
     /// If above 0, some robot does not hear one that hears it, so that they cannot compare their memories. Then all send
     /// elements unasked with their announcements, so that these robots get them from any others that they hear. The
-    /// robot that compares in vain starts at [`FARTHEST`], and those that hear of it continue with one less.
+    /// robot without answers starts at [`FARTHEST`], and those that hear of it continue with one less.
     pub unasked: u8,
     /// The key after the last one that was sent unasked.
     pub next: u64,

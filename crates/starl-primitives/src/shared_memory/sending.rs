@@ -25,7 +25,7 @@ const REPAIR_PAUSE: Duration = Duration::from_millis(10);
 /// grow into a flood; what they leave out is found in a later comparison.
 const MOST_ANSWERS: usize = 2;
 
-/// So many elements go out unasked with an announcement.
+/// The number of elements that go out unasked with an announcement.
 const UNASKED: usize = 64;
 
 impl SharedMemory {

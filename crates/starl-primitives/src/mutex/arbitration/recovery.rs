@@ -98,7 +98,7 @@ impl Recovery {
     /// It is ready and remembers what it grants from now on.
     pub fn end(&mut self, is_anew: bool) {
         if let Some(begun) = &self.begun {
-            // They ask as the same ones later, so that they need not have answered once more.
+            // They ask as the same ones later, so that they need not have answered again.
             self.founders = match is_anew {
                 true => begun.forgot_before.clone(),
                 false => begun.founders.iter().copied().collect(),
