@@ -116,7 +116,7 @@ impl Row {
             messages_sent: tally.sent,
             messages_delivered: tally.delivered,
             messages_lost: tally.lost,
-            messages_dropped: tally.dropped,
+            messages_dropped: tally.drops.total(),
             messages_retransmitted: tally.retransmitted,
             bytes_sent: counts.bytes_sent,
             collisions: tally.collisions,

@@ -220,7 +220,7 @@ impl Messages {
             sent: tally.sent,
             delivered: tally.delivered,
             lost: tally.lost,
-            dropped: tally.dropped,
+            dropped: tally.drops.total(),
             drops: tally.drops,
             retransmitted: tally.retransmitted,
         }

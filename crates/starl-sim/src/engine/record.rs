@@ -15,8 +15,6 @@ pub struct Tally {
     /// Datagrams lost at random.
     pub lost: u64,
     /// Datagrams dropped for any other reason.
-    pub dropped: u64,
-    /// These by reason.
     pub drops: Drops,
     /// Retransmissions of Broadcast, Geocast and Unicast, for each receiver without acknowledgement.
     /// Retransmissions of other primitives do not appear in events, and are not counted here.
@@ -41,6 +39,11 @@ pub struct Drops {
 }
 
 impl Drops {
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        self.range + self.partition + self.down + self.bandwidth + self.size
+    }
+
     fn count(&mut self, reason: DropReason) {
         *match reason {
             DropReason::Loss => return,
@@ -67,7 +70,6 @@ impl Tally {
         self.sent += other.sent;
         self.delivered += other.delivered;
         self.lost += other.lost;
-        self.dropped += other.dropped;
         self.drops.add(&other.drops);
         self.retransmitted += other.retransmitted;
         self.collisions += other.collisions;
@@ -81,10 +83,7 @@ impl Tally {
                 reason: DropReason::Loss,
                 ..
             } => self.lost += 1,
-            Event::Dropped { reason, .. } => {
-                self.dropped += 1;
-                self.drops.count(*reason);
-            }
+            Event::Dropped { reason, .. } => self.drops.count(*reason),
             Event::Primitive { event, .. } => {
                 let is_again = matches!(event.transfer(), Some(TransferEvent::Retransmit { .. }));
                 self.retransmitted += u64::from(is_again);
