@@ -17,6 +17,7 @@ mod channel;
 mod copies;
 pub mod election;
 pub mod failure_detector;
+mod founders;
 pub mod geocast;
 mod handshake;
 mod incarnation;

@@ -5,6 +5,7 @@ use super::entering::Standing;
 use super::operation::Phase;
 use super::tag::Tag;
 use super::version::Version;
+use crate::founders::Founders;
 use starl_core::{Duration, Payload, Random, Robot, RobotId, Time};
 
 /// Corrupted values are up to this long, bytes.
@@ -22,7 +23,7 @@ impl Register {
                 copy.promised = Some(tag(random));
             }
         }
-        self.founders.clear();
+        self.founders = Founders::default();
         for life in self.lives.all_mut() {
             *life = random.magnitude();
         }

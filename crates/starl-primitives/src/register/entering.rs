@@ -3,6 +3,7 @@
 //!
 //! See the module `recovery` for when a stage is over, and why.
 
+use crate::founders::Founders;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use starl_core::{Duration, RobotId, Time};
@@ -39,10 +40,8 @@ pub(super) struct Entering {
     pub heard_up: Option<Time>,
     /// When one that has just started too said that it had.
     pub told_up: Option<Time>,
-    /// A robot that is up had heard this one, as it is now, when the fleet began.
-    pub is_founder: bool,
-    /// The robots that it had heard then, with their incarnations.
-    pub founders: BTreeMap<RobotId, u32>,
+    /// As a robot that is up has told, if this robot is one of them.
+    pub founders: Founders,
 }
 
 /// A new robot's knowledge of another one.
@@ -103,13 +102,12 @@ impl Entering {
 
     /// The robots that had just started when the fleet began, if it begins now or another robot has told so. Those heard
     /// in the first stage count, because they ask as the same ones later.
-    pub fn founders(&mut self) -> BTreeMap<RobotId, u32> {
+    pub fn founders(&mut self) -> Founders {
         let begins = |heard: &Heard| matches!(heard, Heard::New(_));
-        match self.is_founder {
-            true => core::mem::take(&mut self.founders),
-            false if self.heard.values().all(begins) => core::mem::take(&mut self.new_before),
-            false => BTreeMap::new(),
+        if self.founders.is_empty() && self.heard.values().all(begins) {
+            return Founders::new(core::mem::take(&mut self.new_before));
         }
+        core::mem::take(&mut self.founders)
     }
 
     /// Whether this robot has heard one that is up, lately.
@@ -134,7 +132,7 @@ impl Entering {
                 _ => unfinished += 1,
             }
         }
-        self.is_founder
+        !self.founders.is_empty()
             || up >= majority
             || up + new == others
             || up + unfinished == 0 && new + 1 >= majority && may_begin

@@ -58,6 +58,7 @@ mod version;
 pub use options::Options;
 pub use tag::Tag;
 
+use crate::founders::Founders;
 use crate::incarnation::Incarnation;
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -102,8 +103,8 @@ pub struct Register {
     participants: Option<BTreeSet<RobotId>>,
     incarnation: Incarnation,
     standing: Standing,
-    /// The robots that had just started when this one began with a new fleet, with their incarnations.
-    founders: BTreeMap<RobotId, u32>,
+    /// Those with which the fleet began, if this robot is one of them.
+    founders: Founders,
     /// Crash vector: the latest life of each robot that is known.
     lives: Lives,
     /// Stands for the lives that are on storage; none if none are.
@@ -176,7 +177,7 @@ impl Register {
             participants,
             incarnation: Incarnation::default(),
             standing: Standing::default(),
-            founders: BTreeMap::new(),
+            founders: Founders::default(),
             lives: Lives::default(),
             saved_lives: None,
             replica: Replica::default(),

@@ -2,6 +2,7 @@
 
 use super::tag::Tag;
 use super::version::Version;
+use crate::founders::Founders;
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -37,8 +38,8 @@ pub(super) enum Content {
         is_up: bool,
         /// Whether I have heard a robot that is up, lately.
         hears_up: bool,
-        /// If the fleet began when you had just started, as you are now: the robots that had, with their incarnations.
-        founders: Vec<(RobotId, u32)>,
+        /// Those with which the fleet began, if you are one of them.
+        founders: Founders,
     },
     /// To one that has said the number of its new life: copies.
     State { id: QuestionId, page: Page },

@@ -18,6 +18,7 @@ use super::entering::{Heard, Standing};
 use super::lives::FIRST;
 use super::packet::{Content, Page, QuestionId};
 use super::{Alarm, Register};
+use crate::founders::Founders;
 use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::event::RegisterEvent;
@@ -42,14 +43,7 @@ impl Register {
             self.lives.learn(from, life);
         }
         let is_up = self.is_up();
-        let founders = match self.founders.get(&from) == Some(&id.incarnation) {
-            true if is_up => self
-                .founders
-                .iter()
-                .map(|(&peer, &life)| (peer, life))
-                .collect(),
-            _ => Vec::new(),
-        };
+        let founders = self.founders.with(from, id.incarnation);
         let content = if life.is_some() && is_up && founders.is_empty() {
             let room = self.options.longest_datagram.saturating_sub(60);
             let page = self.replica.page(after, room);
@@ -90,7 +84,7 @@ impl Register {
         incarnation: u32,
         life: u64,
         (is_up, hears_up): (bool, bool),
-        founders: Vec<(RobotId, u32)>,
+        founders: Founders,
     ) {
         if !self.is_member(robot, from) {
             return;
@@ -104,7 +98,7 @@ impl Register {
         }
         let is_founder = is_up && !founders.is_empty();
         if is_founder {
-            (entering.is_founder, entering.founders) = (true, founders.into_iter().collect());
+            entering.founders = founders;
         }
         let known = entering.heard.get(&from);
         let is_known = entering.life.is_some() || matches!(known, Some(Heard::Up { .. }));

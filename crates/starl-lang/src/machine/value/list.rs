@@ -288,11 +288,11 @@ impl List {
     /// Whether the element at an index is this one, where each is one Integer or one text.
     #[inline]
     pub fn is_at(&self, index: usize, block: Block<'_>) -> bool {
-        match (block.scalars, block.objects) {
-            ([scalar], []) => self.scalars.get(index) == Some(scalar),
-            ([], [text]) => self.objects.get(index).is_some_and(|o| o.is_text(text)),
-            _ => false,
-        }
+        let is_same = |text: &Object| {
+            let found = self.objects.get(index);
+            block.scalars.is_empty() && found.is_some_and(|found| found.text() == text.text())
+        };
+        self.is_surely_at(index, block) || matches!(block.objects, [text] if is_same(text))
     }
 
     /// Whether the element at an index is this one, as far as that shows without comparing texts.

@@ -139,12 +139,6 @@ impl Object {
         matches!((&self.0, &other.0), (Some(left), Some(right)) if Arc::ptr_eq(left, right))
     }
 
-    /// Whether both are the same text. Texts that share a body are not looked at.
-    #[inline]
-    pub fn is_text(&self, other: &Object) -> bool {
-        self.is_shared(other) || self.text() == other.text()
-    }
-
     /// The elements of a list or set; none if it is empty.
     #[inline]
     pub fn list(&self) -> Option<&List> {

@@ -2,6 +2,7 @@
 
 use super::super::Resources;
 use super::super::common::RequestId;
+use crate::founders::Founders;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 use starl_core::RobotId;
@@ -72,8 +73,8 @@ pub(super) enum Packet {
         remembers: bool,
         /// In which of its lives.
         incarnation: u32,
-        /// If the fleet began when the arbiter, in its present life, remembered nothing: the robots that did not either.
-        founders: Vec<(RobotId, u32)>,
+        /// Those with which the fleet began, if the arbiter is one of them.
+        founders: Founders,
     },
 }
 

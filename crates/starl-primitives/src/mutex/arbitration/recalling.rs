@@ -161,7 +161,7 @@ impl Arbitration {
             },
             remembers,
             incarnation: common.incarnation.of(robot),
-            founders: self.recovery.founders_with(from, life),
+            founders: self.recovery.founders.with(from, life),
         };
         post.send(from, answer);
     }

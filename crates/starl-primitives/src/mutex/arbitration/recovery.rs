@@ -24,6 +24,7 @@
 //! After a change of participants all of the new ones must answer, after they have changed too: two
 //! quorums of different lists may be disjoint.
 
+use crate::founders::Founders;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::{Duration, Random, RobotId, Time};
@@ -39,8 +40,8 @@ pub(super) struct Recovery {
     pub is_ready: bool,
     /// Whether it has been ready since the robot's start, so that it knows its grants.
     pub remembers: bool,
-    /// The robots that remembered nothing when this one began with a new fleet, with their lives.
-    founders: BTreeMap<RobotId, u32>,
+    /// Those with which the fleet began, if this robot is one of them.
+    pub founders: Founders,
 }
 
 /// An arbiter that asks.
@@ -58,8 +59,8 @@ pub(super) struct Begun {
     answers: BTreeMap<RobotId, Option<u32>>,
     /// The robots that had forgotten before this robot asked with this nonce, with their lives.
     forgot_before: BTreeMap<RobotId, u32>,
-    /// The founders, if another robot has told that this one is one of them.
-    founders: Vec<(RobotId, u32)>,
+    /// As another robot has told, if this robot is one of them.
+    founders: Founders,
     /// How often it has asked.
     pub repetitions: u32,
 }
@@ -89,10 +90,10 @@ impl Recovery {
             is_silence_over: false,
             answers: BTreeMap::new(),
             forgot_before: BTreeMap::new(),
-            founders: Vec::new(),
+            founders: Founders::default(),
             repetitions: 0,
         });
-        self.founders.clear();
+        self.founders = Founders::default();
     }
 
     /// It is ready and remembers what it grants from now on.
@@ -100,20 +101,11 @@ impl Recovery {
         if let Some(begun) = &self.begun {
             // They ask as the same ones later, so that they need not have answered again.
             self.founders = match is_anew {
-                true => begun.forgot_before.clone(),
-                false => begun.founders.iter().copied().collect(),
+                true => Founders::new(begun.forgot_before.clone()),
+                false => begun.founders.clone(),
             };
         }
         (self.is_ready, self.remembers) = (true, true);
-    }
-
-    /// The robots that remembered nothing when the fleet began, if this robot, in this life, is one of them.
-    pub fn founders_with(&self, robot: RobotId, life: u32) -> Vec<(RobotId, u32)> {
-        let founders = self.founders.iter().map(|(&peer, &life)| (peer, life));
-        match self.remembers && self.founders.get(&robot) == Some(&life) {
-            true => founders.collect(),
-            false => Vec::new(),
-        }
     }
 
     /// The asking that is under way.
@@ -195,7 +187,7 @@ impl Recovery {
         from: RobotId,
         nonce: u32,
         forgot: Option<u32>,
-        founders: Vec<(RobotId, u32)>,
+        founders: Founders,
     ) -> bool {
         match self.asking() {
             Some(begun) if begun.nonce == nonce => {
@@ -246,7 +238,7 @@ impl Recovery {
     pub fn corrupt(&mut self, random: &mut Random) {
         self.is_ready = random.chance(0.5);
         self.begun = None;
-        self.founders.clear();
+        self.founders = Founders::default();
     }
 }
 
@@ -276,20 +268,20 @@ mod tests {
         assert!(
             others
                 .iter()
-                .all(|&peer| recovery.hear(peer, 5, None, Vec::new()))
+                .all(|&peer| recovery.hear(peer, 5, None, Founders::default()))
         );
         assert!(recovery.ends_stage(now, &others, lease));
         assert!(
             !others
                 .iter()
-                .any(|&peer| recovery.hear(peer, 5, None, Vec::new()))
+                .any(|&peer| recovery.hear(peer, 5, None, Founders::default()))
         );
         let outlook = recovery.outlook(now, &others, Some(lease));
         assert_eq!(outlook, Outlook::Unready);
         assert!(
             others
                 .iter()
-                .all(|&peer| recovery.hear(peer, 6, None, Vec::new()))
+                .all(|&peer| recovery.hear(peer, 6, None, Founders::default()))
         );
         let outlook = recovery.outlook(now, &others, Some(lease));
         assert_eq!(outlook, Outlook::Ready);
