@@ -20,6 +20,14 @@ fn calm(count: usize) -> World {
     world
 }
 
+/// Whether a robot that waits enters within this number of half seconds.
+fn enters(world: &mut World, robot: usize, halves: u32) -> bool {
+    (0..halves).any(|_| {
+        world.run_for(SECOND / 2);
+        mutex(world, robot).crit()
+    })
+}
+
 #[test]
 fn resources_of_a_crashed_robot_are_free_after_its_lease() {
     let mut world = calm(4);
@@ -72,11 +80,7 @@ fn a_robot_that_hears_others_than_hear_it_blocks_no_majority() {
         for turn in 0..6 {
             let robot = turn % 2;
             world.command(robot, acquire(&["a"]));
-            let entered = (0..24).find(|_| {
-                world.run_for(SECOND / 2);
-                mutex(&world, robot).crit()
-            });
-            assert!(entered.is_some(), "seed {seed}, turn {turn}");
+            assert!(enters(&mut world, robot, 24), "seed {seed}, turn {turn}");
             world.command(robot, release(&["a"]));
         }
         world.wire.cut.clear();
@@ -93,17 +97,9 @@ fn robots_that_fail_soon_after_the_start_leave_a_majority_that_works() {
             ..Wire::perfect()
         };
         let mut world = world(5, seed, wire, false);
-        world.run_for(Duration::from_millis(20 + 37 * seed));
-        world.crash(0);
-        world.crash(seed as usize % 4 + 1);
-        world.run_for(SECOND * 20);
-        for robot in (1..5).filter(|&robot| robot != seed as usize % 4 + 1) {
+        for robot in world.lose_two_early(seed) {
             world.command(robot, acquire(&["a"]));
-            let entered = (0..40).find(|_| {
-                world.run_for(SECOND / 2);
-                mutex(&world, robot).crit()
-            });
-            assert!(entered.is_some(), "seed {seed}, robot {robot}");
+            assert!(enters(&mut world, robot, 40), "seed {seed}, robot {robot}");
             world.command(robot, release(&["a"]));
         }
     }

@@ -129,13 +129,7 @@ fn robots_that_fail_soon_after_the_start_leave_a_majority_that_works() {
             ..Wire::perfect()
         };
         let mut world = World::new(5, seed, wire, None, Keeper::boxed(false, None));
-        world.run_for(Duration::from_millis(20 + 37 * seed));
-        world.crash(0);
-        world.crash(seed as usize % 4 + 1);
-        let rest: Vec<usize> = (1..5)
-            .filter(|&robot| robot != seed as usize % 4 + 1)
-            .collect();
-        world.run_for(SECOND * 20);
+        let rest = world.lose_two_early(seed);
         for (round, &robot) in rest.iter().enumerate() {
             let value = round as u32 + 1;
             world.command(robot, write(value));

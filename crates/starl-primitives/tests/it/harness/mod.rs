@@ -50,6 +50,17 @@ impl DerefMut for World {
 }
 
 impl World {
+    /// Of five robots two fail for ever, at a moment soon after the start and as the seed says; gives the others.
+    pub fn lose_two_early(&mut self, seed: u64) -> Vec<usize> {
+        let lost = [0, seed as usize % 4 + 1];
+        self.run_for(Duration::from_millis(20 + 37 * seed));
+        for robot in lost {
+            self.crash(robot);
+        }
+        self.run_for(Duration::from_seconds(20));
+        (0..5).filter(|robot| !lost.contains(robot)).collect()
+    }
+
     /// A fleet that starts at once at the origin; `period` is that of activations, if any.
     pub fn new(
         count: usize,
