@@ -4,8 +4,8 @@ use crate::support::{folder, starl};
 use serde_json::{Value, json};
 use starl_sim::read::schema::{Default, Field, Kind, SCENARIO};
 
-fn schema() -> (String, Value) {
-    let output = starl(&folder("schema_command"), &["schema"]);
+fn schema(test: &str) -> (String, Value) {
+    let output = starl(&folder(test), &["schema"]);
     assert!(output.status.success() && output.stderr.is_empty());
     let text = String::from_utf8(output.stdout).expect("it is text");
     let schema = serde_json::from_str(&text).expect("it is JSON");
@@ -64,7 +64,7 @@ fn compare(schema: &Value, fields: &[Field], path: &str) -> usize {
 
 #[test]
 fn the_schema_has_every_field() {
-    let (_, schema) = schema();
+    let (_, schema) = schema("schema_fields");
     assert_eq!(
         schema["$schema"],
         "https://json-schema.org/draft/2020-12/schema"
@@ -75,7 +75,7 @@ fn the_schema_has_every_field() {
 
 #[test]
 fn fields_are_in_the_order_of_the_reference() {
-    let (text, _) = schema();
+    let (text, _) = schema("schema_order");
     let mut from = 0;
     for field in SCENARIO {
         let name = format!("\n    {:?}: {{", field.name);

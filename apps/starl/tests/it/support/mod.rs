@@ -1,9 +1,11 @@
 //! Runs the built command as a user would.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::{Mutex, PoisonError};
 
 /// Two robots without obstacles; the run ends within a few simulated seconds.
 pub const SMALL: &str = r#"
@@ -28,8 +30,12 @@ position_noise = "5mm"
 loss = "20%"
 "#;
 
-/// A folder of the test's own, empty at first.
+/// A folder of the test's own, empty at first. Tests run at the same time, so that no two may have one folder.
 pub fn folder(test: &str) -> PathBuf {
+    static TAKEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut taken = TAKEN.lock().unwrap_or_else(PoisonError::into_inner);
+    assert!(taken.insert(test.to_string()), "{test} is taken twice");
+    drop(taken);
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("the test's folder can be made");
