@@ -1,6 +1,6 @@
 //! The program of one robot: its variables and its primitives, run by the machine.
 
-use super::atomic::{Conflicts, Script, Turn};
+use super::atomic::{Conflicts, Script, Turn, reads};
 use super::code::Code;
 use super::corruption;
 use super::failure::Failure;
@@ -17,6 +17,7 @@ use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::any::Any;
@@ -52,7 +53,7 @@ pub struct RobotProgram {
     /// When each action may fire.
     paces: Box<[Pace]>,
     /// See [`RobotProgram::failed_check`].
-    failed_check: Option<u32>,
+    failed_check: Option<(u32, Box<str>)>,
     /// See [`RobotProgram::target`].
     target: Option<Point>,
 }
@@ -97,9 +98,15 @@ impl RobotProgram {
         })
     }
 
-    /// Where the first check is written that was false, so that the program started again, e.g. `race.starl:12:7`.
+    /// Where the first check is written that was false, so that the program started again, and the values of the
+    /// variables that it reads, e.g. `race.starl:12:7 (count = -4)`.
     pub fn failed_check(&self) -> Option<String> {
-        self.code.place_of_check(self.failed_check?)
+        let (check, values) = self.failed_check.as_ref()?;
+        let place = self.code.place_of_check(*check)?;
+        Some(match &**values {
+            "" => place,
+            values => format!("{place} ({values})"),
+        })
     }
 
     /// Where its motion leads, or led last: a robot that cannot get to its target may have given up.
@@ -162,13 +169,13 @@ impl RobotProgram {
             true => check(code, &mut machine),
             false => Ok(None),
         };
-        let failed_check = checked.as_ref().ok().copied().flatten();
+        let failed_check = checked.as_ref().ok().cloned().flatten();
         let result = checked
             .and_then(|_| handle_reports(code.instances(), &reports, &mut machine))
             .and_then(|()| part.run(code, held, (paces, now), &mut machine));
         let (failure, has_fired) = (host.failure, host.has_fired);
-        if let Some(check) = failed_check {
-            self.failed_check.get_or_insert(check);
+        if let Some((check, values)) = failed_check {
+            self.failed_check.get_or_insert((check, values));
             paces.fill(Pace::default());
             let place = code.place_of_check(check).unwrap_or_default();
             let fields = [("check".into(), Detail::Text(place.into()))];
@@ -201,15 +208,35 @@ impl RobotProgram {
     }
 }
 
-/// Starts the program again if a check is false; returns the first one that is.
-fn check(code: &Code, machine: &mut Machine<'_>) -> Result<Option<u32>, RuntimeError> {
+/// Starts the program again if a check is false; returns the first one that is, and the values that it reads.
+fn check(code: &Code, machine: &mut Machine<'_>) -> Result<Option<(u32, Box<str>)>, RuntimeError> {
     let mut first = None;
     for number in 0..code.checks() {
-        if machine.check(number)? {
-            first = first.or(Some(number));
-        }
+        machine.check(number, |state| {
+            first.get_or_insert_with(|| (number, values_read(code, number, state)));
+        })?;
     }
     Ok(first)
+}
+
+/// The variables that a check reads, with their values: `count = -4, most = 5`.
+fn values_read(code: &Code, check: u32, state: &State) -> Box<str> {
+    /// Longer texts are cut off.
+    const LONGEST: usize = 80;
+    let program = code.program();
+    let bytecode = program.bytecode();
+    let Some(action) = bytecode.actions.get(check as usize) else {
+        return Box::default();
+    };
+    let values = program.values_where(state, reads(bytecode, action.guard));
+    let values = values.map(|(name, value)| {
+        let text = format!("{name} = {value}");
+        match text.char_indices().nth(LONGEST) {
+            Some((end, _)) => format!("{}...", &text[..end]),
+            None => text,
+        }
+    });
+    values.collect::<Vec<_>>().join(", ").into()
 }
 
 /// A part of a program that runs in one go.

@@ -75,7 +75,7 @@ fn a_value_out_of_range_gives_way_to_the_first_value() {
     let place = format!("{:?}", fields[0].1);
     assert!(place.contains("guarded.starl:7:12"), "{place}");
     let failed = world.program(0).failed_check();
-    assert!(failed.is_some_and(|at| at.ends_with("guarded.starl:7:12")));
+    assert!(failed.is_some_and(|at| at.ends_with("guarded.starl:7:12 (count = -4, most = 5)")));
     // It is not repeated.
     world.steps(3);
     assert_eq!(resets(&world, 0), 1);

@@ -116,12 +116,14 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Runs the effect of an action without bindings if its guard holds or cannot be computed; whether it did.
-    pub fn check(&mut self, index: u32) -> Result<bool, RuntimeError> {
+    /// Runs the effect of an action without bindings if its guard holds or cannot be computed; whether it did. `first`
+    /// sees the state before that.
+    pub fn check(&mut self, index: u32, first: impl FnOnce(&State)) -> Result<bool, RuntimeError> {
         let fails = self.guard(index).unwrap_or(true);
         let action = self.execution.program.bytecode.actions.get(index as usize);
         match action.filter(|_| fails) {
             Some(action) => {
+                first(self.execution.state);
                 self.execution.host.fires(index);
                 self.call(action.effect, &[], &[]).map(|_| true)
             }

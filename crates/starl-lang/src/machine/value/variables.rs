@@ -35,7 +35,18 @@ impl Program {
     /// The values of all variables of a state, with their names and in their order. A variable whose scalars are not a
     /// value of its type, for instance after a fault, is omitted.
     pub fn values<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (&'a str, Value)> + 'a {
-        self.places().filter_map(|(name, place)| {
+        self.values_where(state, |_, _| true)
+    }
+
+    /// The same, of the variables with scalars and objects for which `is_meant` is true.
+    pub fn values_where<'a>(
+        &'a self,
+        state: &'a State,
+        is_meant: impl Fn(&Range<usize>, &Range<usize>) -> bool + 'a,
+    ) -> impl Iterator<Item = (&'a str, Value)> + 'a {
+        let places = self.places();
+        let places = places.filter(move |(_, place)| is_meant(&place.scalars, &place.objects));
+        places.filter_map(|(name, place)| {
             let scalars = state.scalars.get(place.scalars)?;
             let objects = state.objects.get(place.objects)?;
             Some((name, Value::read(self, place.kind, scalars, objects)?))

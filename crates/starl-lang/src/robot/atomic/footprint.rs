@@ -9,6 +9,7 @@ use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 /// Something that parts of a program have in common.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -70,6 +71,18 @@ impl Conflicts {
             })
         });
         conflicts.collect()
+    }
+}
+
+/// Whether a function, or one that it calls, reads a variable with these scalars and objects of the state.
+pub fn reads(bytecode: &Bytecode, function: u32) -> impl Fn(&Range<usize>, &Range<usize>) -> bool {
+    let footprint = Footprint::of(bytecode, &[function]);
+    move |scalars, objects| {
+        footprint.read.iter().any(|place| match place {
+            Place::Scalar(number) => scalars.contains(&(*number as usize)),
+            Place::Object(number) => objects.contains(&(*number as usize)),
+            Place::Kind(_) => false,
+        })
     }
 }
 

@@ -20,7 +20,7 @@ mod groups;
 mod script;
 mod turn;
 
-pub use footprint::Conflicts;
+pub use footprint::{Conflicts, reads};
 pub use groups::{Groups, join_groups};
 pub use script::Script;
 pub use turn::Turn;
