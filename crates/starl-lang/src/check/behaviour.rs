@@ -122,7 +122,7 @@ impl Checker {
     }
 
     /// The linearizable variables that the body touches, in ascending order.
-    fn linearizable(&self) -> Vec<SharedId> {
+    pub fn linearizable(&self) -> Vec<SharedId> {
         let touched = self.body.touched.iter().map(|(id, _)| *id);
         let is_linearizable =
             |id: &SharedId| self.program[*id].consistency == Consistency::Linearizable;

@@ -80,6 +80,10 @@ pub(super) struct Body {
     pub is_action: bool,
     /// Whether there is an `atomic` in it.
     pub is_atomic: bool,
+    /// The words of the `atomic` blocks that touch nothing that all robots write.
+    pub idle_atomics: Vec<Span>,
+    /// Whether another `atomic` block touches such a variable.
+    pub has_busy_atomic: bool,
 }
 
 impl Body {

@@ -285,15 +285,23 @@ impl Checker {
             let note = format!("declare it `allwrite[linearizable] {name}`");
             self.report(problem(message).note(note));
         } else if shared.iter().all(|id| self.program[*id].is_single_writer) {
-            let message = "this `atomic` touches no variable that all robots write";
-            let note = "an effect always runs as a whole; `atomic` is for variables that other robots write too";
-            self.report(problem(message.into()).note(note));
+            self.body.idle_atomics.push(word);
+        } else {
+            self.body.has_busy_atomic = true;
         }
     }
 
     /// Reports the linearizable variables that a body touches without waiting for them.
     pub fn check_touched(&mut self) {
         if self.body.is_atomic {
+            // The whole action waits, so without its only `atomic` what its guard reads would be an error.
+            if self.body.has_busy_atomic || self.linearizable().is_empty() {
+                let message = "this `atomic` touches no variable that all robots write";
+                let note = "an effect always runs as a whole; `atomic` is for variables that other robots write too";
+                for word in core::mem::take(&mut self.body.idle_atomics) {
+                    self.report(Diagnostic::new(Code::NothingShared, word, message).note(note));
+                }
+            }
             return; // Elsewhere than in an action that is reported.
         }
         let mut touched = self.body.touched.clone();
@@ -310,7 +318,7 @@ impl Checker {
             );
             let note = match self.body.is_action {
                 true => {
-                    "its latest value is available only in an action with `atomic`: put the statements that use it under `atomic`"
+                    "its latest value is available only in an action with `atomic`: put the statements that use it, or depend on it, under `atomic`"
                 }
                 false => {
                     "`init` and handlers cannot wait for it; use it in an action with `atomic`"
