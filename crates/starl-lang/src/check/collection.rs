@@ -2,6 +2,7 @@
 
 use alloc::boxed::Box;
 use alloc::format;
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::report::{broken, made};
@@ -282,6 +283,7 @@ impl Checker {
         match base.ty.clone() {
             Type::List(element) => {
                 let index = self.expect(node.index(), &Type::Int, "the index");
+                self.check_index(&index, base.span, span);
                 let (base, index) = (Box::new(base), Box::new(index));
                 made(ExpressionKind::Index { base, index }, *element, span)
             }
@@ -314,6 +316,34 @@ impl Checker {
                 broken(span)
             }
         }
+    }
+
+    /// Warns of an index below 0, a run-time error, of the list at `base`; the whole expression is at `whole`.
+    pub fn check_index(&mut self, index: &Expression, base: Span, whole: Span) {
+        let is_negative = match &index.kind {
+            ExpressionKind::Int(number) => *number < 0,
+            ExpressionKind::Negate(inner) => matches!(inner.kind, ExpressionKind::Int(1..)),
+            _ => false,
+        };
+        if !is_negative {
+            return;
+        }
+        let problem = Diagnostic::new(
+            Code::NegativeIndex,
+            index.span,
+            "no element has an index below 0",
+        );
+        let problem =
+            problem.note("the last element is `xs.last()`, an optional, or `xs[xs.size() - 1]`");
+        let is_last = self.text(index.span) == "-1";
+        let list = self.text(base).to_string();
+        self.report(match is_last {
+            true => {
+                let form = format!("{list}[{list}.size() - 1]");
+                problem.replace(format!("write `{form}`"), whole, form)
+            }
+            false => problem,
+        });
     }
 
     /// Reports a value without elements by index or key.

@@ -199,6 +199,7 @@ impl Checker {
         match whole.ty.clone() {
             Type::List(element) => {
                 let index = self.expect(node.index(), &Type::Int, "the index");
+                self.check_index(&index, whole.span, span);
                 self.part(whole, Step::Index(index), *element, span)
             }
             Type::Map(key, value) => {

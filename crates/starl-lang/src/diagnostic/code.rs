@@ -251,6 +251,8 @@ codes! {
     FormatValues = "W0213",
     /// A name in braces in a text, which is not replaced by its value.
     BracedName = "W0214",
+    /// An index below 0.
+    NegativeIndex = "W0215",
 }
 
 impl Code {
