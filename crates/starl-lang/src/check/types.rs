@@ -11,11 +11,13 @@ use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
 use super::surroundings::Surroundings;
+use super::tables::Primitive;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Local, RecordId, Type};
 use crate::syntax::SyntaxKind;
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast::{self, AstNode};
+use crate::syntax::type_meant;
 
 const BUILT_IN: &[&str] = &[
     "Bool",
@@ -31,30 +33,6 @@ const BUILT_IN: &[&str] = &[
     "List",
     "Set",
     "Map",
-];
-
-/// Types of other languages, with StarL's.
-const FOREIGN: &[(&str, &str)] = &[
-    ("int", "Int"),
-    ("integer", "Int"),
-    ("long", "Int"),
-    ("float", "Float"),
-    ("double", "Float"),
-    ("real", "Float"),
-    ("number", "Float"),
-    ("boolean", "Bool"),
-    ("str", "String"),
-    ("text", "String"),
-    ("ItemPosition", "Point"),
-    ("Pos", "Point"),
-    ("Position", "Point"),
-    ("Robot", "RobotId"),
-    ("array", "List"),
-    ("Array", "List"),
-    ("Vec", "List"),
-    ("dict", "Map"),
-    ("HashMap", "Map"),
-    ("HashSet", "Set"),
 ];
 
 /// Names in other languages for a type of values that may be missing.
@@ -288,13 +266,27 @@ impl Checker {
             span,
             format!("there is no type `{name}`"),
         );
-        let foreign = FOREIGN.iter().find(|(word, _)| *word == name);
+        if Primitive::named(name).is_some() {
+            let before = self.text(Span::new(0, span.start)).trim_end();
+            let place = Span::new(before.len().saturating_sub(1) as u32, span.end);
+            let message = format!("the primitive `{name}` is not a type");
+            let problem = Diagnostic::new(Code::UnknownType, span, message);
+            self.report(match before.strip_suffix(':') {
+                Some(_) => {
+                    let meant = format!(" = {name}()");
+                    problem.replace(format!("write `{}`", meant.trim()), place, meant)
+                }
+                None => problem.note(format!("a primitive is bound to a name: `name = {name}()`")),
+            });
+            return Type::Error;
+        }
+        let foreign = type_meant(name);
         let scope = &self.files[self.file as usize].scope;
         let declared = (scope.iter())
             .filter(|(_, declared)| matches!(declared.entity, Entity::Enum(_) | Entity::Record(_)))
             .map(|(name, _)| name.as_str());
         let problem = match foreign {
-            Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), span, *meant),
+            Some(meant) => problem.replace(format!("did you mean `{meant}`?"), span, meant),
             None => did_you_mean(
                 problem,
                 span,

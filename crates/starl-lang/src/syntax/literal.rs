@@ -46,6 +46,80 @@ pub(crate) fn unit(name: &str) -> Option<&'static Unit> {
     UNITS.iter().find(|unit| unit.name == name)
 }
 
+/// The unit that a word stands for, as other languages or people write it.
+pub(crate) fn unit_meant(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "sec" | "secs" | "second" | "seconds" => "s",
+        "msec" | "millis" | "milliseconds" => "ms",
+        "µs" | "μs" | "usec" => "us",
+        "minute" | "minutes" | "mins" => "min",
+        "hour" | "hours" | "hr" => "h",
+        "meter" | "meters" | "metre" | "metres" => "m",
+        "degrees" | "degree" | "°" => "deg",
+        "radians" | "radian" => "rad",
+        _ => unit(word)?.name,
+    })
+}
+
+/// The type that other languages call so, in any case.
+pub(crate) fn type_meant(word: &str) -> Option<&'static str> {
+    let mut types = FOREIGN_TYPES.iter();
+    let (_, meant) = types.find(|(other, _)| other.eq_ignore_ascii_case(word))?;
+    Some(*meant)
+}
+
+/// Types of other languages, with StarL's.
+const FOREIGN_TYPES: &[(&str, &str)] = &[
+    ("int", "Int"),
+    ("integer", "Int"),
+    ("long", "Int"),
+    ("uint", "Int"),
+    ("i32", "Int"),
+    ("i64", "Int"),
+    ("u32", "Int"),
+    ("u64", "Int"),
+    ("usize", "Int"),
+    ("float", "Float"),
+    ("double", "Float"),
+    ("real", "Float"),
+    ("number", "Float"),
+    ("f32", "Float"),
+    ("f64", "Float"),
+    ("angle", "Float"),
+    ("length", "Float"),
+    ("distance", "Float"),
+    ("speed", "Float"),
+    ("bool", "Bool"),
+    ("boolean", "Bool"),
+    ("str", "String"),
+    ("string", "String"),
+    ("text", "String"),
+    ("char", "String"),
+    ("ItemPosition", "Point"),
+    ("Pos", "Point"),
+    ("Position", "Point"),
+    ("pose", "Point"),
+    ("vec2", "Point"),
+    ("vec3", "Point"),
+    ("Robot", "RobotId"),
+    ("timedelta", "Duration"),
+    ("timespan", "Duration"),
+    ("seconds", "Duration"),
+    ("datetime", "Time"),
+    ("timestamp", "Time"),
+    ("array", "List"),
+    ("vec", "List"),
+    ("vector", "List"),
+    ("list", "List"),
+    ("sequence", "List"),
+    ("dict", "Map"),
+    ("dictionary", "Map"),
+    ("map", "Map"),
+    ("HashMap", "Map"),
+    ("HashSet", "Set"),
+    ("set", "Set"),
+];
+
 /// The value of a literal without a unit and without a fraction. It may be 2^63, one more than an Int
 /// holds, because the least Int is written with it.
 pub(crate) fn integer(text: &str) -> Option<u64> {

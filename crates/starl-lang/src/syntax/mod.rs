@@ -20,6 +20,7 @@ use rowan::{GreenNode, GreenNodeBuilder};
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 pub use kind::{Language, SyntaxKind};
+pub(crate) use literal::type_meant;
 pub use parser::MAX_DEPTH;
 
 /// A node of the tree.

@@ -98,16 +98,20 @@ fn malformed_number(text: &str, span: Span) -> Diagnostic {
     let message = format!("there is no unit `{suffix}`");
     let problem = Diagnostic::new(Code::MalformedNumber, place, message)
         .note(format!("the units are {}", unit_names()));
-    let written = match suffix {
-        "sec" | "secs" | "second" | "seconds" => Some("s"),
-        "msec" | "millis" => Some("ms"),
-        "µs" | "μs" | "usec" => Some("us"),
-        "hour" | "hours" | "hr" => Some("h"),
-        "meter" | "meters" | "metre" | "metres" => Some("m"),
-        "degrees" | "degree" => Some("deg"),
-        _ => closest(suffix, UNITS.iter().map(|unit| unit.name)),
-    };
-    match written {
+    if matches!(suffix, "mps" | "ms2" | "mps2") {
+        let end = if text[..digits].contains('.') {
+            ""
+        } else {
+            ".0"
+        };
+        let form = format!(
+            "write `{}{end}`, a Float in metres per second",
+            &text[..digits]
+        );
+        return problem.replace(form, place, end);
+    }
+    let closest = || closest(suffix, UNITS.iter().map(|unit| unit.name));
+    match literal::unit_meant(suffix).or_else(closest) {
         Some(name) => problem.replace(format!("write `{name}`"), place, name),
         None => problem,
     }
@@ -164,6 +168,15 @@ fn unknown(text: &str, span: Span) -> Diagnostic {
             "`{character}` is not a quotation mark of a program"
         ))
         .replace("write `\"`", span, "\""),
+        '°' => {
+            let end = text[..span.start as usize].trim_end_matches(' ').len() as u32;
+            let place = Span::new(end, span.end);
+            problem("an angle in degrees is written `90deg`".into()).replace(
+                "write `deg`",
+                place,
+                "deg",
+            )
+        }
         '^' => problem("there is no operator `^`".into()).note("a power is written `pow(a, b)`"),
         '∀' => problem("`∀` is written `forall`".into()).replace(
             "write `forall`",

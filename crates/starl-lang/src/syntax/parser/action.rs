@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::item::name;
 use super::slips::{self, Colon as HeaderColon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*};
-use super::{block, expression, statement};
+use super::{block, expression, statement, words};
 use crate::diagnostic::{Edit, Fix};
 
 /// Whether a name with brackets, which is next, is the header of an action: nothing is between the
@@ -131,11 +131,24 @@ fn without_indentation(parser: &mut Parser<'_>) {
 /// Parses the clauses that are indented under an action's name.
 fn clauses(parser: &mut Parser<'_>) {
     let mut seen = Seen::default();
+    clauses_here(parser, &mut seen);
+    if seen.eff.is_none() && !seen.reported {
+        let place = Span::empty(parser.end_of_last());
+        let problem = Diagnostic::new(
+            Code::MissingEff,
+            place,
+            "this action does nothing: it has no `eff`",
+        );
+        parser.report(problem.expected("`eff` and statements"));
+    }
+}
+
+fn clauses_here(parser: &mut Parser<'_>, seen: &mut Seen) {
     loop {
         match parser.current() {
-            Dedent | EndOfFile => break,
+            Dedent | EndOfFile => return,
             Newline | Semicolon => parser.bump(),
-            Indent => block::unexpected_indentation(parser, clauses),
+            Indent => block::unexpected_indentation(parser, |parser| clauses_here(parser, seen)),
             PreKeyword | EffKeyword => {
                 seen.check(parser);
                 clause(parser);
@@ -145,17 +158,13 @@ fn clauses(parser: &mut Parser<'_>) {
                 every(parser);
                 parser.end_line();
             }
-            _ => outside_eff(parser, &mut seen),
+            Identifier if words::clause(parser).is_some() => {
+                clause(parser);
+                seen.reported = true;
+                parser.end_line();
+            }
+            _ => outside_eff(parser, seen),
         }
-    }
-    if seen.eff.is_none() && !seen.reported {
-        let place = Span::empty(parser.end_of_last());
-        let problem = Diagnostic::new(
-            Code::MissingEff,
-            place,
-            "this action does nothing: it has no `eff`",
-        );
-        parser.report(problem.expected("`eff` and statements"));
     }
 }
 
@@ -192,17 +201,25 @@ impl Seen {
 
 /// `pre` and a condition, perhaps with `for` and a time, or `eff` and statements.
 fn clause(parser: &mut Parser<'_>) {
-    if parser.at(PreKeyword) {
-        parser.start(PreClause);
+    let foreign = words::clause(parser);
+    let is_guard = foreign.unwrap_or(parser.current()) == PreKeyword;
+    parser.start(if is_guard { PreClause } else { EffClause });
+    if foreign.is_some() {
+        let (meant, message) = match is_guard {
+            true => ("pre", "the guard of an action follows `pre`"),
+            false => ("eff", "the statements of an action follow `eff`"),
+        };
+        words::replace(parser, message, meant);
+    } else {
         parser.bump();
+    }
+    if is_guard {
         slips::header_colon(parser, HeaderColon::Remove);
         expression::condition(parser);
         if parser.at(ForKeyword) {
             hold(parser);
         }
     } else {
-        parser.start(EffClause);
-        parser.bump();
         block::after_word(parser, "`eff`", true);
     }
     parser.finish();

@@ -1,6 +1,7 @@
 //! Statements one after another: indented under a header, or on its line.
 
 use alloc::format;
+use alloc::string::String;
 
 use super::slips::{self, Colon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*, statement};
@@ -145,7 +146,7 @@ fn after_inline_if(parser: &mut Parser<'_>) {
 }
 
 /// Lines that are indented although nothing opens a block; `inner` parses them.
-pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Parser<'_>)) {
+pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: impl FnOnce(&mut Parser<'_>)) {
     let first = parser.nth_span(1);
     let start = parser.start_of_line(first.start);
     parser.start(Error);
@@ -163,6 +164,7 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
         parser.skip_block();
         return parser.finish();
     }
+    let number = parser.diagnostics.len();
     parser.report(problem);
     let entered = parser.deeper(|parser| {
         parser.bump();
@@ -171,7 +173,36 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
     if entered.is_some() {
         parser.eat(Dedent);
     }
+    let columns = (column_above(parser, start), place.of(parser.text).len());
+    let edits = parser.outdent_lines(start, parser.end_of_last(), columns);
+    if let (Some(problem), Some(edits)) = (parser.diagnostics.get_mut(number), edits) {
+        let above = spaces(columns.0);
+        problem.expected = Some(format!("{above}, as the line above"));
+        problem.found = Some(spaces(columns.1));
+        let message = match columns.0 {
+            0 => "remove its indentation".into(),
+            _ => format!("indent it by {above}"),
+        };
+        problem.fix = Some(Fix { message, edits });
+    }
     parser.finish();
+}
+
+fn spaces(count: usize) -> String {
+    match count {
+        0 => "no spaces".into(),
+        1 => "1 space".into(),
+        count => format!("{count} spaces"),
+    }
+}
+
+/// How many spaces stand before the last line with text above the line that starts at the byte `start`.
+fn column_above(parser: &Parser<'_>, start: u32) -> usize {
+    let lines = parser.text[..start as usize].lines().rev();
+    let mut lines = lines.filter(|line| !line.trim_start().is_empty());
+    lines
+        .next()
+        .map_or(0, |line| line.len() - line.trim_start().len())
 }
 
 /// Reports a line that begins with the operator by which it continues with the one above.

@@ -2,7 +2,7 @@
 
 use super::expression::{Parsed, Shape, condition, expression_parsed};
 use super::item::name;
-use super::{Parser, SyntaxKind, SyntaxKind::*};
+use super::{Parser, SyntaxKind, SyntaxKind::*, words};
 
 /// `(a, name = b)`; the height of the highest.
 pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
@@ -15,6 +15,9 @@ pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
         if parser.at(Identifier) && parser.nth(1) == Equal {
             name(parser);
             parser.bump();
+        } else if parser.at(Identifier) && parser.nth(1) == Colon {
+            name(parser);
+            words::replace(parser, "the name of an argument stands before `=`", " =");
         }
         height = height.max(expression_parsed(parser).height);
         if parser.at(ForKeyword) {
@@ -100,7 +103,11 @@ pub(super) fn iteration(parser: &mut Parser<'_>) -> u32 {
         pattern(parser);
     }
     parser.finish();
-    if parser.expect(InKeyword) {
+    let is_foreign = parser.at_word("of");
+    if is_foreign {
+        words::replace(parser, "the collection stands after `in`", "in");
+    }
+    if is_foreign || parser.expect(InKeyword) {
         expression_parsed(parser).height
     } else {
         0

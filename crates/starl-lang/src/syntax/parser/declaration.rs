@@ -1,6 +1,7 @@
 //! Headers, parameters, constants, variables, bindings, functions, `init` and roles.
 
 use alloc::format;
+use alloc::string::String;
 
 use super::item::{self, name};
 use super::slips::{self, Colon as HeaderColon};
@@ -29,6 +30,56 @@ pub(super) fn header(parser: &mut Parser<'_>) {
 pub(super) fn import(parser: &mut Parser<'_>) {
     parser.bump();
     name(parser);
+    let rest = parser.end_of_last();
+    if parser.at_word("as") {
+        let message = "a library keeps its name";
+        drop_rest(parser, rest, message, |_| "".into());
+    } else if parser.at(Comma) {
+        let message = "each library is imported on a line of its own";
+        drop_rest(parser, rest, message, |rest| {
+            let names = rest
+                .split(',')
+                .map(str::trim)
+                .filter(|name| !name.is_empty());
+            names.map(|name| format!("\nimport {name}")).collect()
+        });
+    }
+}
+
+/// `from name import something`.
+pub(super) fn import_from(parser: &mut Parser<'_>) {
+    let (word, library) = (parser.span(), parser.nth_span(1));
+    let rest = Span::new(library.end, library.end);
+    parser.bump();
+    name(parser);
+    parser.skip_to_line_end();
+    let form = format!("import {}", library.of(parser.text));
+    let span = Span::new(word.start, parser.end_of_last().max(rest.end));
+    let message = "a library is imported as a whole";
+    let problem = Diagnostic::new(Code::ForeignDeclaration, word, message);
+    let note = format!(
+        "its declarations are named `{}.something`",
+        library.of(parser.text)
+    );
+    parser.report(
+        problem
+            .note(note)
+            .replace(format!("write `{form}`"), span, form),
+    );
+}
+
+/// Reports what follows on the line, after the byte `end`, and what should stand there.
+fn drop_rest(parser: &mut Parser<'_>, end: u32, message: &str, meant: fn(&str) -> String) {
+    let first = parser.span();
+    parser.skip_to_line_end();
+    let rest = Span::new(end, parser.end_of_last());
+    let meant = meant(rest.of(parser.text));
+    let form = match meant.trim() {
+        "" => "remove the rest of the line".into(),
+        meant => format!("write `{}`", meant.replace('\n', "`, `")),
+    };
+    let problem = Diagnostic::new(Code::ForeignDeclaration, first, message);
+    parser.report(problem.replace(form, rest, meant));
 }
 
 /// `param name: Type in from..before = default`.
@@ -68,7 +119,13 @@ pub(super) fn constant(parser: &mut Parser<'_>) {
 pub(super) fn variable(parser: &mut Parser<'_>) {
     name(parser);
     parser.expect(Colon);
-    types::any(parser);
+    if let Some(ty) = type_ahead(parser, 1).filter(|_| parser.at(Equal)) {
+        let place = Span::empty(parser.end_of_last());
+        let problem = Diagnostic::new(Code::Unexpected, place, "the variable needs a type");
+        parser.report(problem.replace(format!("write `{ty}`"), place, format!(" {ty}")));
+    } else {
+        types::any(parser);
+    }
     range(parser);
     value(parser);
 }
@@ -90,10 +147,15 @@ pub(super) fn let_variable(parser: &mut Parser<'_>) {
     );
     let typed = parser.nth(2) == Colon;
     let until_name = Span::new(span.start, parser.nth_span(1).start);
-    parser.report(if typed {
-        problem.replace("remove `let`", until_name, "")
-    } else {
-        problem.note("such as `x: Int = 0`")
+    let until_value = span.to(parser.nth_span(1));
+    let named = parser.nth_span(1).of(parser.text);
+    parser.report(match type_ahead(parser, 3) {
+        _ if typed => problem.replace("remove `let`", until_name, ""),
+        Some(ty) => {
+            let form = format!("{named}: {ty}");
+            problem.replace(format!("write `{form}`"), until_value, form)
+        }
+        None => problem.note("such as `x: Int = 0`"),
     });
     parser.bump();
     name(parser);
@@ -118,7 +180,7 @@ pub(super) fn binding(parser: &mut Parser<'_>) {
     let named = parser.span();
     name(parser);
     parser.bump();
-    let first = parser.current();
+    let (first, constructor) = (parser.current(), parser.span());
     let shape = expression::expression(parser);
     if matches!(shape, expression::Shape::Call | expression::Shape::Broken) {
         return;
@@ -129,10 +191,27 @@ pub(super) fn binding(parser: &mut Parser<'_>) {
         .expected("`name: Type = value`")
         .note("only a primitive is bound without one, as in `motion = ReachAvoid()`");
     let place = Span::empty(named.end);
+    let value = Span::new(constructor.start, parser.end_of_last());
+    let is_primitive = value
+        .of(parser.text)
+        .starts_with(|c: char| c.is_ascii_uppercase());
     parser.report(match type_of(first).filter(|_| parser.at_line_end()) {
+        _ if shape == expression::Shape::Target && is_primitive => {
+            let form = format!("write `{}()`", value.of(parser.text));
+            problem.replace(form, Span::empty(value.end), "()")
+        }
         Some(ty) => problem.replace(format!("write `{text}: {ty}`"), place, format!(": {ty}")),
         None => problem,
     });
+}
+
+/// The type of the value after `ahead` lexemes, if it is a literal that ends its line.
+pub(super) fn type_ahead(parser: &Parser<'_>, ahead: usize) -> Option<&'static str> {
+    let ends = matches!(
+        parser.nth(ahead + 1),
+        Newline | EndOfFile | Dedent | Semicolon
+    );
+    type_of(parser.nth(ahead)).filter(|_| ends)
 }
 
 /// The type of what begins with the literal.
@@ -169,6 +248,7 @@ pub(super) fn function_without_word(parser: &mut Parser<'_>) {
 }
 
 fn function_from_name(parser: &mut Parser<'_>) {
+    let reported = parser.diagnostics.len();
     name(parser);
     parameters(parser);
     if parser.at(Colon) && parser.nth(1) == Identifier {
@@ -184,7 +264,19 @@ fn function_from_name(parser: &mut Parser<'_>) {
     } else if parser.eat(Arrow) {
         types::any(parser);
     } else {
-        parser.unexpected("`->` and the type of the result");
+        // Where its parameters lack their types too, that is said.
+        if parser.diagnostics.len() == reported {
+            parser.unexpected("`->` and the type of the result");
+            let note =
+                "statements that run by themselves are an action: `name()`, and under it `eff`";
+            let last = parser.diagnostics.last_mut().into_iter();
+            last.for_each(|last| last.notes.push(note.into()));
+        }
+        if parser.at(Colon) && parser.nth(1) == Newline {
+            parser.start(Error);
+            parser.bump();
+            parser.finish();
+        }
     }
     if parser.eat(Equal) {
         expression::expression(parser);

@@ -5,7 +5,7 @@ use alloc::format;
 use rowan::Checkpoint;
 
 use super::operand::{self, postfix};
-use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*};
+use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*, words};
 
 /// The shape of an expression, for the parser of statements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +63,16 @@ pub(super) fn expression(parser: &mut Parser<'_>) -> Shape {
 /// The same, with its height.
 pub(super) fn expression_parsed(parser: &mut Parser<'_>) -> Parsed {
     let before = core::mem::replace(&mut parser.equals_compare, false);
-    let parsed = binary(parser, 0);
+    let (start, first) = (parser.checkpoint(), parser.span().start);
+    let mut parsed = binary(parser, 0);
+    if words::is_condition_after_value(parser) && parsed.height + parser.depth < MAX_DEPTH {
+        let rest = parser.deeper(|parser| words::condition_after_value(parser, first));
+        parser.start_at(start, Error);
+        parser.finish();
+        parsed = rest.map_or(Parsed::BROKEN, |()| {
+            Parsed::new(Shape::Broken, parsed.height + 1)
+        });
+    }
     parser.equals_compare = before;
     parsed
 }
@@ -88,28 +97,35 @@ pub(super) fn binary(parser: &mut Parser<'_>, least: u8) -> Parsed {
 }
 
 fn binary_here(parser: &mut Parser<'_>, least: u8) -> Parsed {
-    let start = parser.checkpoint();
+    let (start, first) = (parser.checkpoint(), parser.span().start);
     let mut left = match prefix(parser, start) {
         Some(parsed) => parsed,
         None => postfix(parser, start),
     };
     let mut compared: Option<u32> = None;
     while let Some((power, right_power)) = operator(parser).filter(|(power, _)| *power >= least) {
+        let foreign = words::operator(parser);
         if left.height + parser.depth >= MAX_DEPTH {
             parser.too_deep();
             return Parsed::BROKEN;
         }
         let (kind, span) = (parser.current(), parser.span());
-        if kind == Minus && parser.nth(1) == Minus && ends_line(parser.nth(2)) {
+        let steps = kind == Minus && parser.nth(1) == Minus && ends_line(parser.nth(2));
+        // A time after a comparison and `in` can only be a deadline.
+        let ends = kind == InKeyword && parser.nth(1) == DurationLiteral && compared.is_some();
+        if steps || ends {
             return left;
         }
-        if kind == Equal {
+        if kind == Equal && foreign.is_none() {
             slip_equal(parser, span);
         }
         if let Some(operand) = compared.filter(|_| power == power::COMPARISON) {
             chained(parser, span, operand);
         }
-        parser.bump();
+        match foreign {
+            Some(foreign) => words::take_operator(parser, &foreign, first),
+            None => parser.bump(),
+        }
         if kind == NotKeyword {
             // `operator` saw the `in`.
             parser.bump();
@@ -138,8 +154,9 @@ fn ends_line(kind: SyntaxKind) -> bool {
 /// The powers of the operator that is next, and of its right operand.
 fn operator(parser: &Parser<'_>) -> Option<(u8, u8)> {
     let left_first = |power| Some((power, power + 1));
-    match parser.current() {
-        OrKeyword => left_first(power::OR),
+    let foreign = words::operator(parser).map(|foreign| foreign.kind);
+    match foreign.unwrap_or(parser.current()) {
+        OrKeyword | Arrow if foreign.is_some() || parser.at(OrKeyword) => left_first(power::OR),
         AndKeyword => left_first(power::AND),
         Equal if parser.equals_compare => left_first(power::COMPARISON),
         InKeyword => left_first(power::COMPARISON),

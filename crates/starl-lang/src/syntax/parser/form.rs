@@ -65,6 +65,15 @@ fn by_two_words(parser: &Parser<'_>, word: &str) -> Option<Form> {
     if parser.nth(2) == LeftParen && action::is_header_at(parser, 2) && word == "action" {
         return Some((ActionDeclaration, declare::foreign_action));
     }
+    match word {
+        "never" => return Some((PropertyDeclaration, property::property)),
+        "forall" | "exists" => return Some((PropertyDeclaration, property::without_word)),
+        "from" => return Some((Import, declare::import_from)),
+        "when" | "receive" | "upon" if parser.nth(2) == LeftParen => {
+            return Some((HandlerDeclaration, handler::without_word));
+        }
+        _ => {}
+    }
     let meant = slips::foreign_declaration(word);
     let variable = slips::is_variable_word(word) && parser.nth(2) != LeftParen;
     match meant {

@@ -2,11 +2,38 @@
 //! order.
 
 use super::item::name;
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, block, declaration, types};
+use super::{
+    Code, Diagnostic, Parser, Span, SyntaxKind::*, block, declaration, slips, types, words,
+};
 
 /// `on Message(from, a, b)`, `on primitive.event(a)` or `on input name(a: T)`, and statements.
 pub(super) fn handler(parser: &mut Parser<'_>) {
+    let on = parser.span();
     parser.bump();
+    after_word(parser, on);
+}
+
+/// `when Message(from, a)`, whose first word is `on`.
+pub(super) fn without_word(parser: &mut Parser<'_>) {
+    let on = parser.span();
+    words::replace(parser, "a handler begins with `on`", "on");
+    after_word(parser, on);
+}
+
+fn after_word(parser: &mut Parser<'_>, on: Span) {
+    let begins = matches!(parser.word(), "start" | "init" | "startup" | "begin");
+    if begins && matches!(parser.nth(1), Newline | Colon) {
+        let span = on.to(parser.span());
+        let message = "the statements at the start follow `init`";
+        slips::foreign_operator(parser, span, message, ("write `init`", "init"));
+        parser.skip_to_line_end();
+        return block::indented(parser, "`init`");
+    }
+    if matches!(parser.word(), "message" | "receive" | "received" | "event")
+        && parser.nth(1) == Identifier
+    {
+        words::remove(parser, "the name of the message or event stands after `on`");
+    }
     // `input` may also be the name of a message or of a primitive.
     let next = parser.nth(1);
     if parser.at_word("input") && (next == Identifier || next.is_keyword()) {

@@ -25,6 +25,7 @@ mod stable;
 mod statement;
 mod tree;
 mod types;
+mod words;
 
 use alloc::vec::Vec;
 

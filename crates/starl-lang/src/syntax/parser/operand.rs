@@ -8,7 +8,7 @@ use super::collection::{self, iteration};
 use super::expression::{self, Parsed, Shape, binary, condition, expression_parsed, power};
 use super::item::name;
 use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*};
-use super::{slips, types};
+use super::{slips, types, words};
 use crate::syntax::literal;
 
 /// Whether an operand other than a literal can begin so.
@@ -85,7 +85,11 @@ fn index(parser: &mut Parser<'_>) -> u32 {
 fn simple(parser: &mut Parser<'_>) -> Parsed {
     match parser.current() {
         kind if kind.is_literal() => number_or_other_literal(parser),
-        Identifier if is_quantifier(parser) => quantifier(parser),
+        Identifier | ForKeyword if is_quantifier(parser) => quantifier(parser),
+        Identifier if matches!(parser.word(), "new" | "await") && parser.nth(1) == Identifier => {
+            words::remove(parser, "a value begins with its name");
+            simple(parser)
+        }
         Identifier => {
             parser.start(NameExpression);
             parser.bump();
@@ -112,15 +116,18 @@ fn number_or_other_literal(parser: &mut Parser<'_>) -> Parsed {
     );
     parser.start(LiteralExpression);
     parser.bump();
-    if is_plain && parser.at(Identifier) && literal::unit(parser.word()).is_some() {
+    if is_plain
+        && parser.at(Identifier)
+        && let Some(name) = literal::unit_meant(parser.word())
+    {
         let unit = parser.span();
         let problem = Diagnostic::new(
             Code::UnitApart,
             number.to(unit),
             "a number and its unit are one word",
         );
-        let form = format!("write `{}{}`", number.of(parser.text), unit.of(parser.text));
-        parser.report(problem.replace(form, Span::new(number.end, unit.start), ""));
+        let form = format!("write `{}{name}`", number.of(parser.text));
+        parser.report(problem.replace(form, Span::new(number.end, unit.end), name));
         parser.start(Error);
         parser.bump();
         parser.finish();
@@ -212,23 +219,31 @@ fn conditional(parser: &mut Parser<'_>) -> Parsed {
 
 /// Whether `forall` or `exists` is next, with a name after it.
 fn is_quantifier(parser: &Parser<'_>) -> bool {
-    matches!(parser.word(), "forall" | "exists")
-        && (runs_over(parser)
-            || parser.nth(1) == Identifier && matches!(parser.nth(2), Comma | Colon))
+    let length = match words::quantifier(parser) {
+        Some((_, length)) => length,
+        None if matches!(parser.word(), "forall" | "exists") => 1,
+        None => return false,
+    };
+    runs_over(parser, length)
+        || parser.nth(length) == Identifier && matches!(parser.nth(length + 1), Comma | Colon)
 }
 
-/// Whether `x in`, `k, v in` or the same with tuples of names is after the next word.
-fn runs_over(parser: &Parser<'_>) -> bool {
+/// Whether `x in`, `k, v in` or the same with tuples of names is after the next `length` words.
+fn runs_over(parser: &Parser<'_>, length: usize) -> bool {
     let is_name =
         |at: &usize| matches!(parser.nth(*at), Identifier | Comma | LeftParen | RightParen);
-    let end = (1..).find(|at| !is_name(at)).unwrap_or_default();
-    end > 1 && parser.nth(end) == InKeyword
+    let end = (length..).find(|at| !is_name(at)).unwrap_or_default();
+    end > length && parser.nth(end) == InKeyword
 }
 
 /// `forall r, s: condition` or `forall x in xs: condition`.
 fn quantifier(parser: &mut Parser<'_>) -> Parsed {
-    let is_over_collection = runs_over(parser);
+    let foreign = words::quantifier(parser);
+    let is_over_collection = runs_over(parser, foreign.map_or(1, |(_, length)| length));
     parser.start(QuantifierExpression);
+    if let Some((meant, length)) = foreign {
+        words::take_quantifier(parser, meant, length);
+    }
     parser.bump();
     let mut height = 0;
     if is_over_collection {

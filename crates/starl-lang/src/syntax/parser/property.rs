@@ -2,7 +2,8 @@
 //! `always name: condition leads_to condition within 30s`, `check condition`.
 
 use super::item::name;
-use super::{Parser, SyntaxKind::*, expression};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, expression, words};
+use crate::diagnostic::{Edit, Fix};
 
 /// Whether the word that is next begins a property rather than naming something.
 pub(super) fn is_next(parser: &Parser<'_>) -> bool {
@@ -27,21 +28,40 @@ pub(super) fn check(parser: &mut Parser<'_>) {
 
 /// A property, whose name may be missing.
 pub(super) fn property(parser: &mut Parser<'_>) {
-    let is_eventual = parser.at_word("eventually");
+    let (begin, is_eventual) = (parser.span(), parser.at_word("eventually"));
+    let is_never = parser.at_word("never");
     parser.bump();
-    if is_eventual && parser.at_word("always") && parser.nth(1) != Colon {
+    let is_always = is_eventual && parser.at_word("always") && parser.nth(1) != Colon;
+    if is_always {
         parser.bump();
     }
-    if parser.nth(1) == Colon && (parser.at(Identifier) || parser.current().is_keyword()) {
+    let begins = parser.end_of_last();
+    let named = parser.nth(1) == Colon && (parser.at(Identifier) || parser.current().is_keyword());
+    if named || is_name(parser) {
         name(parser);
     }
-    parser.eat(Colon);
+    let colon = parser.eat(Colon);
+    let (head, first) = (parser.end_of_last(), parser.span().start);
     expression::condition(parser);
+    if is_never {
+        never(parser, begin, (!colon).then_some(head), first);
+    } else if !colon && first > head {
+        let place = Span::empty(head);
+        let message = "`:` is missing before the condition of a property";
+        let problem = Diagnostic::new(Code::Unexpected, place, message);
+        // With the colon alone, `always` would be its name.
+        parser.report(match is_always && begins == head {
+            true => problem.note("write `eventually always name: condition`, with a name"),
+            false => problem.replace("write `:`", place, ":"),
+        });
+    }
     if parser.at_word("leads_to") {
         parser.bump();
         expression::condition(parser);
     }
-    if parser.at_word("within") {
+    if words::deadline(parser) {
+        expression::expression(parser);
+    } else if parser.at_word("within") {
         parser.bump();
         expression::expression(parser);
     }
@@ -58,6 +78,43 @@ pub(super) fn property(parser: &mut Parser<'_>) {
         parser.bump();
         word(parser, "crashes");
     }
+}
+
+/// Whether the name of a property is next, without the colon after it.
+fn is_name(parser: &Parser<'_>) -> bool {
+    let next = parser.nth_span(1).of(parser.text);
+    let begins = match parser.nth(1) {
+        Identifier => !CLAUSES.contains(&next),
+        kind => kind.is_literal() || matches!(kind, NotKeyword | SomeKeyword | IfKeyword),
+    };
+    let quantified = matches!(parser.word(), "forall" | "exists");
+    parser.at(Identifier) && begins && !quantified && words::operator_at(parser, 1).is_none()
+}
+
+/// Words that follow the condition of a property.
+const CLAUSES: [&str; 7] = [
+    "within", "leads_to", "recovers", "assuming", "despite", "before", "until",
+];
+
+/// Reports `never p`, whose condition starts at the byte `first`, after the byte `head` if a colon is missing there.
+fn never(parser: &mut Parser<'_>, word: Span, head: Option<u32>, first: u32) {
+    let message = "`never` does not begin a property";
+    let problem = Diagnostic::new(Code::ForeignDeclaration, word, message);
+    let mut edits = alloc::vec![Edit::new(word, "always")];
+    edits.extend(head.map(|head| Edit::new(Span::empty(head), ":")));
+    edits.push(Edit::new(Span::empty(first), "not ("));
+    edits.push(Edit::new(Span::empty(parser.end_of_last().max(first)), ")"));
+    let message = "write `always: not (...)`".into();
+    parser.report(problem.fix(Fix { message, edits }));
+}
+
+/// `forall r: condition`, which is a property without its first word.
+pub(super) fn without_word(parser: &mut Parser<'_>) {
+    let start = parser.span().start;
+    let message = "a property begins with `always` or `eventually`";
+    let problem = Diagnostic::new(Code::ForeignDeclaration, parser.span(), message);
+    parser.report(problem.replace("write `always:`", Span::empty(start), "always: "));
+    expression::condition(parser);
 }
 
 /// A word that has to come next.

@@ -197,6 +197,25 @@ impl Parser<'_> {
             .collect()
     }
 
+    /// The edits that move lines with the bytes `from` to before `to` from the second column to the first, if all of
+    /// them are indented that far with spaces.
+    pub fn outdent_lines(&self, from: u32, to: u32, columns: (usize, usize)) -> Option<Vec<Edit>> {
+        let surplus = columns.1.checked_sub(columns.0)?;
+        let mut start = from;
+        let mut edits = Vec::new();
+        for line in self.text[from as usize..to as usize].split_inclusive('\n') {
+            if !line.trim().is_empty() {
+                let is_indented = line.bytes().take(surplus).filter(|byte| *byte == b' ');
+                if is_indented.count() < surplus {
+                    return None;
+                }
+                edits.push(Edit::new(Span::new(start, start + surplus as u32), ""));
+            }
+            start += line.len() as u32;
+        }
+        Some(edits)
+    }
+
     /// Where the line starts that holds the byte at `offset`.
     pub fn start_of_line(&self, offset: u32) -> u32 {
         self.text[..offset as usize]

@@ -4,6 +4,7 @@ use alloc::format;
 
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
 use crate::diagnostic::closest;
+use crate::syntax::literal;
 
 /// The treatment of a colon at the end of a header.
 #[derive(Clone, Copy)]
@@ -56,7 +57,7 @@ pub(super) fn foreign_declaration(word: &str) -> Option<&'static str> {
         "def" | "fn" | "func" | "fun" => "function",
         "agent" | "automaton" => "program",
         "module" => "library",
-        "use" | "include" | "from" => "import",
+        "use" | "include" => "import",
         "struct" | "class" | "type" => "record",
         "sharedsw" => "allread",
         "sharedmw" | "shared" => "allwrite",
@@ -78,6 +79,10 @@ pub(super) fn is_variable_word(word: &str) -> bool {
             | "state"
             | "val"
             | "mut"
+            | "global"
+            | "public"
+            | "private"
+            | "static"
             | "int"
             | "float"
             | "double"
@@ -89,19 +94,25 @@ pub(super) fn is_variable_word(word: &str) -> bool {
 
 /// Whether a word before a variable's name says nothing of its type.
 fn is_untyped(word: &str) -> bool {
-    matches!(word, "var" | "local" | "state" | "val" | "mut" | "let")
+    matches!(
+        word,
+        "var"
+            | "local"
+            | "state"
+            | "val"
+            | "mut"
+            | "let"
+            | "const"
+            | "global"
+            | "public"
+            | "private"
+            | "static"
+    )
 }
 
 /// The type that other languages call so.
 pub(super) fn type_of(word: &str) -> &str {
-    match word {
-        "int" | "long" | "Integer" => "Int",
-        "float" | "double" | "Double" => "Float",
-        "bool" | "boolean" | "Boolean" => "Bool",
-        "string" => "String",
-        "ItemPosition" => "Point",
-        _ => word,
-    }
+    literal::type_meant(word).unwrap_or(word)
 }
 
 /// Reports `Int x` or `var x`, with the two words next, and takes the first of them.
@@ -127,8 +138,13 @@ pub(super) fn foreign_variable(parser: &mut Parser<'_>, keyword: &str) {
     let name_text = name.of(parser.text);
     let fix = if is_untyped(text) {
         // Without `let`, a variable needs its type.
-        (!keyword.is_empty() || after_name == SyntaxKind::Colon)
-            .then(|| format!("{keyword}{name_text}"))
+        let ty = super::declaration::type_ahead(parser, 3).filter(|_| after_name == Equal);
+        match ty {
+            _ if !keyword.is_empty() || after_name == SyntaxKind::Colon => {
+                Some(format!("{keyword}{name_text}"))
+            }
+            ty => ty.map(|ty| format!("{name_text}: {ty}")),
+        }
     } else {
         Some(format!("{keyword}{name_text}: {}", type_of(text)))
     };
@@ -159,6 +175,18 @@ pub(super) fn foreign_statement(parser: &Parser<'_>) -> Option<&'static str> {
             "every activation ends: write an action, which runs again while its guard holds, or a `for`"
         }
         "switch" | "match" | "case" if heads && !calls(parser) => "write `if` and `elif`",
+        "throw" | "raise" if heads && !calls(parser) => {
+            "`fail(\"reason\")` stops the robot's program"
+        }
+        "del" | "delete" if heads && !calls(parser) => {
+            "`m.remove(key)` removes a key of a map, and `xs.remove_at(i)` an element of a list"
+        }
+        "yield" | "await" if heads && !calls(parser) => {
+            "nothing waits in an effect: write `pre condition for 5s`, or `every 5s`, in an action"
+        }
+        "end" | "endif" | "fi" | "endfor" | "endwhile" | "done" if alone => {
+            "a block ends with its indentation: remove this line"
+        }
         "break" | "continue" if alone => {
             "a `for` always iterates over its whole collection: use an `if` in it, or `return`"
         }
@@ -195,7 +223,32 @@ pub(super) fn with_habit(parser: &Parser<'_>, expected: &str, problem: Diagnosti
         };
         return problem.replace(format!("write `{operator}`"), span, operator);
     }
+    let word = parser.word();
     let note = match (current, expected) {
+        (Question, _) if parser.nth(1) == Dot => {
+            "an optional is tested: `if some y = x` names its value, and `x ?? default` replaces a missing one"
+        }
+        (LeftBrace, _) if expected == "an indented block" => return problem,
+        (StringLiteral, _) if is_formatted_text(parser) => {
+            "write `log(\"x is {}\", x)`, or `\"x is \" + String(x)`"
+        }
+        (LeftBrace, _) if word_before.starts_with(|c: char| c.is_ascii_uppercase()) => {
+            "a record is made by a call, as in `Pair(x = 1, y = 2)`"
+        }
+        (Colon, "`]`") => "a part of a list is `xs.slice(start, end)`",
+        (Comma, "`=`") => "the names of the parts of a tuple are in brackets: `let (a, b) = pair`",
+        (Equal, _) if parser.nth(1) == Greater => {
+            "functions are not values: declare one with `function`"
+        }
+        (Identifier, _) if word == "as" => "`Float(x)`, `Int(x)` and `String(x)` convert a value",
+        (_, "a declaration") if word == "every" => {
+            "an action repeats something: `name()`, and under it `every 5s` and `eff`"
+        }
+        (DurationLiteral, _) if word_before == "after" => {
+            "keep the moment in a variable, `since: Time = now`, and compare `now - since > 5s`, or write \
+             `pre condition for 5s`"
+        }
+        (Identifier, _) if word_before == "typeof" => "every name has the type of its declaration",
         (Question, _) => "a choice of two values is written `if condition then a else b`",
         (Star, _) if kind_before == Some(Star) => "a power is written `pow(x, 2.0)` or `x * x`",
         (Equal, _) if kind_before == Some(DotDot) => "`a..b` ends before `b`: write `a..b + 1`",

@@ -4,7 +4,9 @@ use alloc::format;
 
 use super::expression::{condition, expression as value};
 use super::slips::{self, Colon as HeaderColon};
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, assignment, block, collection, types};
+use super::{
+    Code, Diagnostic, Parser, Span, SyntaxKind::*, assignment, block, collection, types, words,
+};
 
 /// Where a statement stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -25,6 +27,7 @@ pub(super) fn statement(parser: &mut Parser<'_>, place: Place) {
         LetKeyword => local(parser),
         ReturnKeyword => result(parser),
         Identifier => from_name(parser),
+        PlusPlus if parser.nth(1) == Identifier => words::step_before(parser),
         ElifKeyword | ElseKeyword => stray(
             parser,
             "has no `if`",
@@ -80,6 +83,9 @@ fn local(parser: &mut Parser<'_>) {
 }
 
 fn local_rest(parser: &mut Parser<'_>) {
+    if matches!(parser.word(), "mut" | "var" | "const") && parser.nth(1) == Identifier {
+        words::remove(parser, "every local variable can be changed");
+    }
     collection::pattern(parser);
     if parser.eat(Colon) {
         types::any(parser);
@@ -103,8 +109,10 @@ fn result(parser: &mut Parser<'_>) {
 fn iteration(parser: &mut Parser<'_>) {
     parser.start(ForStatement);
     parser.bump();
-    collection::iteration(parser);
-    block::indented(parser, "`for`");
+    if !words::loop_words(parser) {
+        collection::iteration(parser);
+        block::indented(parser, "`for`");
+    }
     parser.finish();
 }
 
@@ -119,11 +127,19 @@ fn branches(parser: &mut Parser<'_>, place: Place) {
         } else {
             parser.current()
         };
-        if !matches!(kind, ElifKeyword | ElseKeyword) {
+        let word = parser.nth_span(usize::from(next_line)).of(parser.text);
+        let one_word = matches!(word, "elseif" | "elsif" | "elseIf") && place == Place::OwnLine;
+        if !matches!(kind, ElifKeyword | ElseKeyword) && !one_word {
             break;
         }
         if next_line {
             parser.bump();
+        }
+        if one_word {
+            let (span, fix) = (parser.span(), ("write `elif`", "elif"));
+            slips::foreign_operator(parser, span, "this is written `elif`", fix);
+            branch(parser);
+            continue;
         }
         let else_if = kind == ElseKeyword && parser.nth(1) == IfKeyword && opens_block(parser);
         if kind == ElifKeyword || else_if {
@@ -215,6 +231,11 @@ fn from_name(parser: &mut Parser<'_>) {
         return parser.skip_line_and_block();
     }
     match next {
+        Identifier if parser.word() == "foreach" => {
+            let (span, fix) = (parser.span(), ("write `for`", "for"));
+            slips::foreign_operator(parser, span, "a loop begins with `for`", fix);
+            iteration(parser);
+        }
         Colon if parser.nth(2) == Identifier => {
             let span = parser.span();
             let problem = Diagnostic::new(

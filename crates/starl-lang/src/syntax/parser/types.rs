@@ -1,5 +1,7 @@
 //! Types: `Int`, `List[Point]`, `Map[String, Int]?`, `geometry.Line`, `enum {a, b}`.
 
+use alloc::format;
+
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, record};
 
 /// The message about a tuple of one part.
@@ -38,7 +40,18 @@ fn single(parser: &mut Parser<'_>) -> bool {
         return false;
     }
     parser.start(NamedType);
+    let name = parser.span();
     parser.bump();
+    if parser.at(LeftBracket) && parser.nth(1) == RightBracket {
+        let span = name.to(parser.nth_span(1));
+        let form = format!("List[{}]", super::slips::type_of(name.of(parser.text)));
+        let problem = Diagnostic::new(Code::Unexpected, span, "a list is written with its type");
+        parser.report(problem.replace(format!("write `{form}`"), span, form));
+        parser.start(Error);
+        parser.bump();
+        parser.bump();
+        parser.finish();
+    }
     if parser.at(Dot) {
         parser.bump();
         parser.expect(Identifier);
