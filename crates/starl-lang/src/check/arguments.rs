@@ -10,7 +10,7 @@ use super::resolution::Symbol;
 use super::shape::Letters;
 use super::state::Checker;
 use super::tables::{Shape, Signature};
-use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, Span};
 use crate::ir::{Expression, Type};
 use crate::syntax::ast::{self, AstNode};
 
@@ -108,7 +108,40 @@ impl Checker {
                 *value = value.take().map(whole);
             }
         }
+        if let [Some(first), Some(second)] = &checked[..] {
+            self.join_swapped(first.span, second.span);
+        }
         checked
+    }
+
+    /// Makes one message of the two about arguments at these places, if each is where the other belongs.
+    fn join_swapped(&mut self, first: Span, second: Span) {
+        let diagnostics = &mut self.files[self.file as usize].checked.diagnostics;
+        let [.., a, b] = &diagnostics[..] else {
+            return;
+        };
+        let wrong = [(a, first), (b, second)].iter().all(|(problem, span)| {
+            problem.code == Code::WrongType && problem.span == *span && problem.fix.is_none()
+        });
+        let swapped = a.found == b.expected || b.found == a.expected;
+        if !wrong || !swapped {
+            return;
+        }
+        diagnostics.truncate(diagnostics.len() - 2);
+        let texts = [first, second].map(|span| self.text(span).to_string());
+        let problem = Diagnostic::new(
+            Code::WrongType,
+            first,
+            "these arguments are in the wrong order",
+        );
+        let [one, other] = texts;
+        let edits = [Edit::new(first, other), Edit::new(second, one)].into();
+        let message = "swap them".into();
+        self.report(
+            problem
+                .label(second, "this is the first")
+                .fix(Fix { message, edits }),
+        );
     }
 
     pub fn shaped(
@@ -219,7 +252,15 @@ impl Checker {
             let at = Span::new(span.end.saturating_sub(1), span.end);
             let problem = Diagnostic::new(Code::ArgumentCount, at, message);
             let problem = self.with_count(problem, parameters, given);
-            self.report(problem);
+            let before = if given > 0 { ", " } else { "" };
+            self.report(match name {
+                "unsafe" => {
+                    let place = Span::empty(at.start);
+                    let form = format!("{before}obstacles()");
+                    problem.replace("write `obstacles()` for those that are known", place, form)
+                }
+                _ => problem,
+            });
         }
         Arranged { values, rest }
     }

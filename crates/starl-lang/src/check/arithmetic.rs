@@ -104,6 +104,13 @@ impl Checker {
             (Type::Set(_), Type::Set(_), BinaryOperator::Subtract) => {
                 problem.note("it is `a.difference(b)`")
             }
+            (Type::Time, Type::Duration | Type::Int | Type::Float, _) if compares => problem.note(
+                "the time since a moment is a Duration: keep the moment in a variable, `since: Time = now`, and \
+                 compare `now - since > 5s`, or write `pre condition for 5s`",
+            ),
+            (Type::List(_), Type::Int, BinaryOperator::Multiply) => {
+                problem.note("a list of equal elements is `[x for i in 0..n]`")
+            }
             (Type::Duration, Type::Int | Type::Float, _)
             | (Type::Int | Type::Float, Type::Duration, _) => {
                 problem.note("a duration is written with its unit, such as `2s`")

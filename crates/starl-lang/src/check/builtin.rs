@@ -1,16 +1,17 @@
 //! Calls of built-in functions.
 
 use alloc::format;
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::arguments::Parameters;
-use super::report::{counted, made, something};
+use super::report::{article, counted, made, something};
 use super::shape::Letters;
 use super::state::Checker;
 use super::tables::Builtin;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Type};
-use crate::syntax::ast;
+use crate::syntax::ast::{self, AstNode};
 
 impl Checker {
     pub fn call_builtin(
@@ -36,9 +37,19 @@ impl Checker {
             return made(ExpressionKind::Error, something(ty), span);
         }
         self.resolve_arguments(arguments, builtin.text(), &signature);
+        if let (Builtin::Min | Builtin::Max, [only]) = (builtin, arguments)
+            && let Some(value) = only.value()
+            && self.probe.is_none()
+        {
+            return self.extreme_of_one(signature.name, value, span);
+        }
         let arranged = self.arrange(&Parameters::of(&signature), arguments, span);
         let mut letters = Letters::new();
+        let reported = self.files[self.file as usize].checked.diagnostics.len();
         let values = self.shaped_arguments(&signature, arranged.values, &mut letters, span);
+        if let [Some(first)] = &values[..] {
+            self.explain_argument(builtin, reported, first.span, span);
+        }
         let rest: Vec<_> = (arranged.rest.into_iter())
             .map(|(name, value)| (name, self.value(Some(value), None, "this")))
             .collect();
@@ -59,6 +70,66 @@ impl Checker {
             rest,
         };
         made(kind, ty.unwrap_or(Type::Error), span)
+    }
+
+    /// Reports `max(xs)`.
+    fn extreme_of_one(&mut self, name: &str, value: ast::Expression, span: Span) -> Expression {
+        let at = value.span();
+        let value = self.infer(Some(value), None);
+        let message = format!("`{name}` needs two values, or the elements of a collection");
+        let problem = Diagnostic::new(Code::ArgumentCount, at, message);
+        let form = format!("x for x in {}", self.text(at));
+        match value.ty {
+            Type::Error => {}
+            Type::List(_) | Type::Set(_) => {
+                self.report(problem.replace(format!("write `{name}({form})`"), at, form));
+            }
+            _ => self.report(problem.expected("2 arguments").found("1")),
+        }
+        super::report::broken(span)
+    }
+
+    /// Adds the fix to a report, the one with this number, that the first argument has the wrong type.
+    fn explain_argument(&mut self, builtin: Builtin, number: usize, at: Span, call: Span) {
+        let text = self.text(at).to_string();
+        let diagnostics = &mut self.files[self.file as usize].checked.diagnostics;
+        let is_meant = |problem: &&mut Diagnostic| {
+            problem.code == Code::WrongType && problem.span == at && problem.fix.is_none()
+        };
+        let Some(problem) = diagnostics.get_mut(number).filter(is_meant) else {
+            return;
+        };
+        let found = problem.found.clone().unwrap_or_default();
+        let (message, span, form) = match (builtin, found.as_str()) {
+            (Builtin::Log | Builtin::Fail, _) => {
+                let form = match builtin {
+                    Builtin::Log => "\"{}\", ".to_string() + &text,
+                    _ => format!("String({text})"),
+                };
+                (format!("write `{form}`"), at, form)
+            }
+            (Builtin::ToFloat, "Duration") => {
+                let form = format!("{text} / 1s");
+                (format!("write `{form}`, the number of seconds"), call, form)
+            }
+            (Builtin::ToInt, "Duration") => {
+                let form = format!("{text} / 1s");
+                (
+                    format!("write `Int({form})`, the number of seconds"),
+                    at,
+                    form,
+                )
+            }
+            (Builtin::ToInt | Builtin::ToFloat, found) if found == builtin.name() => {
+                (format!("it is {} already", article(found)), call, text)
+            }
+            (Builtin::ToInt | Builtin::ToFloat, "Bool") => {
+                let form = format!("if {text} then 1 else 0");
+                (format!("write `{form}`"), call, form)
+            }
+            _ => return,
+        };
+        *problem = problem.clone().replace(message, span, form);
     }
 
     /// Warns if the `{}` of a text do not match the values after it.

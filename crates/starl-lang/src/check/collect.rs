@@ -347,11 +347,14 @@ impl Checker {
     fn collect_binding(&mut self, node: ast::BindingDeclaration, documentation: String) {
         let Some(name) = name_of(&node) else { return };
         let id = BindingId(self.program.bindings.len() as u32);
-        self.declare(&name, Entity::Binding(id));
-        let primitive = super::declaration::constructor(&node);
+        let constructor = super::declaration::constructor(&node);
+        let primitive = constructor.and_then(|(word, _)| Primitive::named(&word));
+        // Where it is not a primitive, which is reported, it may be meant as a variable.
+        let entity = primitive.map_or(Entity::Broken, |_| Entity::Binding(id));
+        self.declare(&name, entity);
         self.program.bindings.push(Binding {
             name: name.text,
-            primitive: primitive.and_then(|(word, _)| Primitive::named(&word)),
+            primitive,
             arguments: Vec::new(),
             locals: Vec::new(),
             site: self.site(name.span),

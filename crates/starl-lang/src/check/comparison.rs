@@ -3,6 +3,7 @@
 use alloc::boxed::Box;
 
 use super::arithmetic::alike;
+use super::body::Where;
 use super::fit::same;
 use super::report::{joined, made};
 use super::state::Checker;
@@ -151,7 +152,21 @@ impl Checker {
             let problem = Diagnostic::new(Code::NotCollection, collection.span, message);
             let found = self.name_of(&collection.ty);
             let expected = "a list, a set, a map, a range or a text";
-            self.report(problem.expected(expected).found(found));
+            let problem = problem.expected(expected).found(found);
+            let between = Span::new(item.span.end, collection.span.start);
+            let word = self
+                .text(between)
+                .find("in")
+                .map(|at| between.start + at as u32);
+            self.report(match word {
+                Some(start)
+                    if collection.ty == Type::Duration && self.body.place == Where::Property =>
+                {
+                    let word = Span::new(start, start + 2);
+                    problem.replace("write `within` for a deadline", word, "within")
+                }
+                _ => problem,
+            });
             return broken_bool(span);
         };
         let item = self.fit(item, &element, "the value before `in`");

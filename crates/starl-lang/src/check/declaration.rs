@@ -14,10 +14,10 @@ use super::scope::Entity;
 use super::shape::Letters;
 use super::state::{Behaviour, Checker, Needed, Progress};
 use super::surroundings::Surroundings;
-use super::tables::{PRIMITIVES, Primitive, Signature};
+use super::tables::{Builtin, PRIMITIVES, Primitive, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::*;
-use crate::syntax::ast::{self, AstNode};
+use crate::syntax::ast::{self, AstNode, Named};
 
 /// The word that names a primitive where one is bound, and its place.
 pub(super) fn constructor(node: &ast::BindingDeclaration) -> Option<(String, Span)> {
@@ -344,12 +344,31 @@ impl Checker {
         let problem = Diagnostic::new(Code::UnknownPrimitive, span, message);
         let names = || PRIMITIVES.iter().map(Primitive::name);
         let scope = &self.files[0].scope;
-        let problem = match scope.get(&word).map(|declared| declared.entity) {
-            Some(Entity::Function(_) | Entity::Record(_)) => {
-                problem.note("a variable is declared with its type: `name: Type = value`")
-            }
-            _ => did_you_mean(problem, span, &word, names()),
+        let ty = match scope.get(&word).map(|declared| declared.entity) {
+            Some(Entity::Function(id)) => Some(self.program[id].result.clone()),
+            Some(Entity::Record(id)) => Some(Type::Record(id)),
+            _ => Builtin::named(&word).map(|builtin| {
+                let result = self.shape_type(&builtin.signature().result, &Letters::new());
+                result.unwrap_or(Type::Error)
+            }),
         };
-        self.report(problem.note(format!("there are {}", super::report::listed(names()))));
+        let problem = match (ty, node.name()) {
+            (Some(ty), Some(name)) => {
+                let note = "a variable is declared with its type: `name: Type = value`";
+                let ty = self.name_of(&ty);
+                let form = format!("write `{}: {ty}`", name.text());
+                problem
+                    .note(note)
+                    .replace(form, Span::empty(name.span().end), format!(": {ty}"))
+            }
+            _ => {
+                let problem = match word.as_str() {
+                    "Motion" => problem.replace("did you mean `ReachAvoid`?", span, "ReachAvoid"),
+                    _ => did_you_mean(problem, span, &word, names()),
+                };
+                problem.note(format!("there are {}", super::report::listed(names())))
+            }
+        };
+        self.report(problem);
     }
 }

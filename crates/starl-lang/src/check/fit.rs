@@ -195,6 +195,14 @@ impl Checker {
                 let fix = "multiply it by a unit: `... * 1s` if these are seconds";
                 problem.fix(around(fix, span, before, &after))
             }
+            (_, Type::Set(inner)) if same(found, inner) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                problem.fix(around("put it in braces: a set of one", span, "{", "}"))
+            }
+            (_, Type::List(inner)) if same(found, inner) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                problem.fix(around("put it in brackets: a list of one", span, "[", "]"))
+            }
             _ => {
                 let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
                 if self.name_of(found) == self.name_of(expected) {

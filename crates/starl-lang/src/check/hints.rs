@@ -18,7 +18,11 @@ impl Checker {
             ));
         }
         if let Some((_, note)) = HABITS.iter().find(|(word, _)| *word == name) {
-            return problem.note(*note);
+            let problem = problem.note(*note);
+            return match self.rewritten(name, span) {
+                Some((whole, form)) => problem.replace(format!("write `{form}`"), whole, form),
+                None => problem,
+            };
         }
         let member = self.member_after(span);
         if !member.is_empty() {
@@ -54,6 +58,107 @@ impl Checker {
         words.any(|word| word == "forall" || word == "exists") && words.any(|word| word == name)
     }
 
+    /// The place and StarL's form of the call of a function of another language at the place.
+    fn rewritten(&self, name: &str, span: Span) -> Option<(Span, String)> {
+        let inner = self.arguments_after(span)?;
+        let text = self.text(inner).trim();
+        let is_plain = text
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.'));
+        let method = match name {
+            "len" | "length" => "size",
+            "sum" | "sorted" | "reversed" => name,
+            "range" => "",
+            _ => return None,
+        };
+        let form = match (method, text.split_once(',')) {
+            (_, None) if text.is_empty() => return None,
+            ("", None) if is_plain => format!("0..{text}"),
+            ("", None) => format!("0..({text})"),
+            ("", Some((_, rest))) if rest.contains(',') => return None,
+            ("", Some((start, end))) => format!("{}..{}", start.trim(), end.trim()),
+            (_, Some(_)) => return None,
+            (method, None) if is_plain => format!("{text}.{method}()"),
+            (method, None) => format!("({text}).{method}()"),
+        };
+        Some((Span::new(span.start, inner.end + 1), form))
+    }
+
+    /// The text between the brackets that follow the place.
+    pub(super) fn arguments_after(&self, span: Span) -> Option<Span> {
+        let source = &self.files[self.file as usize].checked.source;
+        let rest = source.get(span.end as usize..)?.strip_prefix('(')?;
+        let mut open = 0_u32;
+        let end = rest.char_indices().find(|(_, character)| {
+            match character {
+                '(' | '[' | '{' => open += 1,
+                ')' | ']' | '}' if open > 0 => open -= 1,
+                ')' | '\n' | '"' => return true,
+                _ => {}
+            }
+            false
+        });
+        let (end, _) = end.filter(|(_, character)| *character == ')')?;
+        let start = span.end + 1;
+        Some(Span::new(start, start + end as u32))
+    }
+
+    /// Adds the fix for `2m/s`: a unit is not divided, and a speed is a Float.
+    pub(super) fn quotient_of_units(
+        &self,
+        problem: &Diagnostic,
+        name: &str,
+        span: Span,
+    ) -> Option<Diagnostic> {
+        let divisor = match name {
+            "s" => "",
+            "min" => " / 60.0",
+            "h" => " / 3600.0",
+            _ => return None,
+        };
+        let before = self.text(Span::new(0, span.start)).strip_suffix('/')?;
+        let number = before.trim_end_matches(|letter: char| letter.is_ascii_alphabetic());
+        if number.len() == before.len() || !number.ends_with(|digit: char| digit.is_ascii_digit()) {
+            return None;
+        }
+        let note = "units are not divided: a speed is a Float in metres per second, or in radians per second";
+        let quotient = Span::new(span.start - 1, span.end);
+        let form = match divisor {
+            "" => "remove `/s`".into(),
+            divisor => format!("write `{}`", divisor.trim()),
+        };
+        Some(problem.clone().note(note).replace(form, quotient, divisor))
+    }
+
+    /// Adds the fix for a method of another language, or a note: the receiver has no `name` at the place `at`.
+    pub(super) fn member_hint(
+        &self,
+        problem: Diagnostic,
+        receiver: Span,
+        name: &str,
+        at: Span,
+    ) -> Diagnostic {
+        let end = self
+            .arguments_after(at)
+            .map_or(at.end, |inner| inner.end + 1);
+        let (whole, rest) = (Span::new(receiver.start, end), Span::new(at.start, end));
+        let value = self.text(receiver);
+        let (form, span) = match name {
+            "is_empty" | "isEmpty" | "empty" => ("size() == 0".into(), rest),
+            "to_string" | "toString" => (format!("String({value})"), whole),
+            "to_float" | "toFloat" => (format!("Float({value})"), whole),
+            "to_int" | "toInt" => (format!("Int({value})"), whole),
+            _ => {
+                let note = MEMBERS.iter().find(|(words, _)| words.contains(&name));
+                return match note {
+                    Some((_, note)) => problem.note(*note),
+                    None => problem,
+                };
+            }
+        };
+        problem.replace(format!("write `{form}`"), span, form)
+    }
+
     /// Adds the fix for `self.x`, which is written `x`.
     pub(super) fn without_self(
         &self,
@@ -61,12 +166,17 @@ impl Checker {
         name: &str,
         span: Span,
     ) -> Option<Diagnostic> {
-        if !matches!(name, "self" | "this") || self.member_after(span).is_empty() {
-            return None;
-        }
-        let dot = Span::new(span.start, span.end + 1);
         let member = self.member_after(span);
-        let form = format!("write `{member}`; a program's variables are used by their names");
+        let reason = match name {
+            _ if member.is_empty() => return None,
+            "self" | "this" => "a program's variables are used by their names",
+            "math" | "Math" | "np" | "numpy" | "time" | "console" | "sys" | "std" => {
+                "functions are used by their names"
+            }
+            _ => return None,
+        };
+        let dot = Span::new(span.start, span.end + 1);
+        let form = format!("write `{member}`; {reason}");
         Some(problem.clone().replace(form, dot, ""))
     }
 
@@ -183,6 +293,37 @@ pub(super) fn is_habit(name: &str) -> bool {
     HABITS.iter().any(|(word, _)| *word == name)
 }
 
+/// Methods that other languages have, and what takes their place.
+const MEMBERS: &[(&[&str], &str)] = &[
+    (
+        &["pop", "pop_back", "shift"],
+        "`xs.last()` reads the last element, and `xs.remove_at(xs.size() - 1)` removes it",
+    ),
+    (
+        &["clear"],
+        "assign an empty one: `xs = []`, or `{}` for a set and `{:}` for a map",
+    ),
+    (
+        &["put", "set", "insert", "update", "setdefault"],
+        "`m[key] = value` sets the value of a key",
+    ),
+    (
+        &["items", "entries"],
+        "`for k, v in m` goes over the keys and their values",
+    ),
+    (
+        &["max", "min"],
+        "`max(x for x in xs)` is the greatest element, and none of an empty list",
+    ),
+    (
+        &["map", "filter"],
+        "write `[f(x) for x in xs if condition]`",
+    ),
+    (&["extend", "concat", "addAll"], "`xs + ys` joins two lists"),
+    (&["copy", "clone"], "an assignment copies: `let y = x`"),
+    (&["get", "at"], "`xs[i]` is the element at an index"),
+];
+
 /// Names that other languages have, and what takes their place.
 const HABITS: &[(&str, &str)] = &[
     (
@@ -203,6 +344,7 @@ const HABITS: &[(&str, &str)] = &[
         "sorted",
         "a list can be sorted: `xs.sorted()`, or `[x for x in xs by key]`",
     ),
+    ("reversed", "a list can be reversed: `xs.reversed()`"),
     ("any", "write `exists x in xs: condition`"),
     ("all", "write `forall x in xs: condition`"),
     ("filter", "write `[x for x in xs if condition]`"),
@@ -219,6 +361,22 @@ const HABITS: &[(&str, &str)] = &[
         "delay",
         "nothing waits in an effect: write `pre condition for 5s`, or `every 5s`, in an action",
     ),
+    (
+        "Duration",
+        "a number becomes a time by multiplication: `n * 1s`",
+    ),
+    (
+        "seconds",
+        "a number becomes a time by multiplication: `n * 1s`",
+    ),
+    ("Time", "a moment is `now`, or a sum such as `now + 5s`"),
+    ("Bool", "write a comparison, such as `n != 0`"),
+    ("List", "a list is written `[a, b]`, and an empty one `[]`"),
+    ("list", "a list is written `[a, b]`, and an empty one `[]`"),
+    ("Set", "a set is written `{a, b}`, and an empty one `{}`"),
+    ("set", "a set is written `{a, b}`, and an empty one `{}`"),
+    ("Map", "a map is written `{k: v}`, and an empty one `{:}`"),
+    ("dict", "a map is written `{k: v}`, and an empty one `{:}`"),
     (
         "assert",
         "declare a property, `always name: condition`, which is judged on every run",

@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::report::did_you_mean;
 use super::state::{Checker, File};
 use super::{CheckedFile, Libraries, prelude};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -110,6 +111,8 @@ impl Loader<'_> {
         let Some(source) = self.libraries.source(name) else {
             let message = format!("there is no library `{name}`");
             let problem = Diagnostic::new(Code::UnknownLibrary, span, message);
+            let names = self.libraries.names();
+            let problem = did_you_mean(problem, span, name, names.iter().map(String::as_str));
             let note = match name {
                 "math" | "random" | "time" | "numpy" | "sys" | "os" | "typing" => {
                     "functions such as `sqrt`, `sin`, `random` and `now` need no import: remove the line".into()

@@ -25,6 +25,26 @@ const FOREIGN: &[(&str, &str)] = &[
     ("push", "add"),
     ("append", "add"),
     ("insert_at", "insert"),
+    ("sort", "sorted"),
+    ("reverse", "reversed"),
+    ("find", "index_of"),
+    ("indexOf", "index_of"),
+    ("delete", "remove"),
+    ("discard", "remove"),
+    ("erase", "remove"),
+    ("has_key", "contains"),
+    ("containsKey", "contains"),
+    ("sublist", "slice"),
+    ("goto", "reach_avoid"),
+    ("go_to", "reach_avoid"),
+    ("move_to", "reach_avoid"),
+    ("drive_to", "reach_avoid"),
+    ("reached", "done"),
+    ("arrived", "done"),
+    ("lock", "acquire"),
+    ("unlock", "release"),
+    ("locked", "held"),
+    ("publish", "broadcast"),
     ("includes", "contains"),
     ("has", "contains"),
     ("doneFlag", "done"),
@@ -383,6 +403,7 @@ impl Checker {
         }
         let message = format!("{found} has no `{name}`");
         let problem = Diagnostic::new(Code::UnknownMember, at, message);
+        let reported = problem.clone();
         let mut names: Vec<&str> = Method::of(self.receiver_name(&base.ty))
             .map(Method::name)
             .collect();
@@ -397,6 +418,18 @@ impl Checker {
             }
             Type::Point => names.extend(["x", "y", "z"]),
             _ => {}
+        }
+        if names.contains(&name) {
+            let end = self
+                .arguments_after(at)
+                .map_or(at.end, |inner| inner.end + 1);
+            let problem = Diagnostic::new(Code::NotCallable, at, format!("`{name}` is not called"));
+            let brackets = Span::new(at.end, end);
+            return self.report(problem.replace("remove the brackets", brackets, ""));
+        }
+        let hinted = self.member_hint(problem.clone(), base.span, name, at);
+        if hinted != reported {
+            return self.report(hinted);
         }
         let foreign = FOREIGN.iter().find(|(word, _)| *word == name);
         let foreign = foreign.filter(|(_, meant)| names.contains(meant));

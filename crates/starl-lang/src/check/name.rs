@@ -315,7 +315,15 @@ impl Checker {
         if let Some(problem) = self.without_self(&problem, name, span) {
             return problem;
         }
+        if let Some(problem) = self.quotient_of_units(&problem, name, span) {
+            return problem;
+        }
         if let Some((_, meant)) = FOREIGN.iter().find(|(word, _)| *word == name) {
+            let is_value = Builtin::named(meant).is_some_and(|own| !own.signature().is_call);
+            let brackets = self
+                .arguments_after(span)
+                .filter(|inner| is_value && inner.start == inner.end);
+            let span = brackets.map_or(span, |inner| Span::new(span.start, inner.end + 1));
             return problem.replace(format!("did you mean `{meant}`?"), span, *meant);
         }
         let locals = self.body.names.iter().map(|(name, _)| name.as_str());
@@ -346,6 +354,18 @@ const FOREIGN: &[(&str, &str)] = &[
     ("pid", "me"),
     ("self", "me"),
     ("my_id", "me"),
+    ("id", "me"),
+    ("myId", "me"),
+    ("robot_id", "me"),
+    ("time", "now"),
+    ("clock", "now"),
+    ("pos", "position"),
+    ("undefined", "none"),
+    ("NULL", "none"),
+    ("TRUE", "true"),
+    ("FALSE", "false"),
+    ("exit", "finish"),
+    ("quit", "finish"),
     ("robots", "peers"),
     ("others", "peers"),
     ("neighbors", "peers"),
@@ -370,6 +390,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("raise", "fail"),
     ("throw", "fail"),
     ("panic", "fail"),
+    ("rand", "random"),
     ("randint", "random_int"),
     ("uniform", "random"),
     ("choice", "choose"),

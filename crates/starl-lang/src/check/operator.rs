@@ -24,7 +24,14 @@ impl Checker {
         match operator {
             BinaryOperator::And | BinaryOperator::Or => {
                 let role = format!("what `{}` joins", operator.text());
-                let left = self.expect(node.left(), &Type::Bool, &role);
+                let left = self.infer(node.left(), Some(&Type::Bool));
+                if let Type::Optional(inner) = &left.ty
+                    && operator == BinaryOperator::Or
+                    && **inner != Type::Bool
+                {
+                    return self.or_default(node, &left, &(**inner).clone(), span);
+                }
+                let left = self.fit(left, &Type::Bool, &role);
                 let right = self.expect(node.right(), &Type::Bool, &role);
                 let operator = if operator == BinaryOperator::And {
                     Operator::And
@@ -56,6 +63,30 @@ impl Checker {
                 self.arithmetic(operator, left, right, span)
             }
         }
+    }
+
+    /// Reports `optional or default`.
+    fn or_default(
+        &mut self,
+        node: &ast::BinaryExpression,
+        left: &Expression,
+        inner: &Type,
+        span: Span,
+    ) -> Expression {
+        let right = self.infer(node.right(), Some(inner));
+        let message = "`or` joins conditions, and this is an optional";
+        let problem = Diagnostic::new(Code::WrongType, left.span, message);
+        let between = Span::new(left.span.end, right.span.start);
+        let problem = match self.text(between).find("or") {
+            Some(at) => {
+                let start = between.start + at as u32;
+                let word = Span::new(start, start + 2);
+                problem.replace("write `??` for a default", word, "??")
+            }
+            None => problem,
+        };
+        self.report(problem);
+        broken(span)
     }
 
     fn default(

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 
-use starl_lang::check::{Checked, check};
+use starl_lang::check::{Checked, Libraries, check};
 use starl_lang::diagnostic::{Code, Colour, render};
 
 struct Case {
@@ -17,6 +17,19 @@ struct Case {
     libraries: BTreeMap<String, String>,
     program: String,
     expected: String,
+}
+
+/// The libraries of a case.
+struct Beside<'a>(&'a BTreeMap<String, String>);
+
+impl Libraries for Beside<'_> {
+    fn source(&self, name: &str) -> Option<String> {
+        self.0.get(name).cloned()
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.0.keys().cloned().collect()
+    }
 }
 
 /// The blocks of a file, each with its heading, what stands after its fence, and its text.
@@ -46,8 +59,7 @@ fn cases(text: &str) -> Vec<Case> {
 }
 
 fn said(case: &Case) -> String {
-    let libraries = |name: &str| case.libraries.get(name).cloned();
-    let checked = check(&case.program, &libraries);
+    let checked = check(&case.program, &Beside(&case.libraries));
     let mut said = String::new();
     for file in &checked.files {
         let name = format!("{}.starl", file.name.to_lowercase());
@@ -116,7 +128,7 @@ fn each_code_of_the_checker_has_a_case() {
 fn suggested_fixes_solve_the_problem() {
     for path in files() {
         for case in cases(&fs::read_to_string(&path).unwrap()) {
-            let libraries = |name: &str| case.libraries.get(name).cloned();
+            let libraries = Beside(&case.libraries);
             let checked = check(&case.program, &libraries);
             for diagnostic in checked.diagnostics() {
                 let Some(fix) = &diagnostic.fix else {
