@@ -123,6 +123,14 @@ impl Checker {
             (Builtin::ToInt | Builtin::ToFloat, found) if found == builtin.name() => {
                 (format!("it is {} already", article(found)), call, text)
             }
+            (Builtin::ToInt | Builtin::ToFloat, "String") => {
+                let method = match builtin {
+                    Builtin::ToInt => "to_int",
+                    _ => "to_float",
+                };
+                let form = format!("{text}.{method}()");
+                (format!("write `{form}`, an optional"), call, form)
+            }
             (Builtin::ToInt | Builtin::ToFloat, "Bool") => {
                 let form = format!("if {text} then 1 else 0");
                 (format!("write `{form}`"), call, form)

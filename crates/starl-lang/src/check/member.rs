@@ -35,6 +35,16 @@ const FOREIGN: &[(&str, &str)] = &[
     ("has_key", "contains"),
     ("containsKey", "contains"),
     ("sublist", "slice"),
+    ("lowercase", "lower"),
+    ("toLowerCase", "lower"),
+    ("uppercase", "upper"),
+    ("toUpperCase", "upper"),
+    ("strip", "trim"),
+    ("startsWith", "starts_with"),
+    ("endsWith", "ends_with"),
+    ("parse", "to_int"),
+    ("toInt", "to_int"),
+    ("toFloat", "to_float"),
     ("goto", "reach_avoid"),
     ("go_to", "reach_avoid"),
     ("move_to", "reach_avoid"),
@@ -427,12 +437,12 @@ impl Checker {
             let brackets = Span::new(at.end, end);
             return self.report(problem.replace("remove the brackets", brackets, ""));
         }
-        let hinted = self.member_hint(problem.clone(), base.span, name, at);
-        if hinted != reported {
-            return self.report(hinted);
-        }
         let foreign = FOREIGN.iter().find(|(word, _)| *word == name);
         let foreign = foreign.filter(|(_, meant)| names.contains(meant));
+        let hinted = self.member_hint(problem.clone(), base.span, name, at);
+        if hinted != reported && foreign.is_none() {
+            return self.report(hinted);
+        }
         let problem = match foreign {
             Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), at, *meant),
             None => did_you_mean(problem, at, name, names.iter().copied()),

@@ -337,6 +337,16 @@ instructions! {
     /// to = the parts of the text between separators; all of it if the separator is empty. A shift of
     /// the text and 8 for each part.
     SplitText "split_text" { to: ObjectOut, text: ObjectIn, separator: ObjectIn, kind: Type }
+    /// to = whether the text has `part` at this end. Costs the size of `part` over 8.
+    MatchText "match_text" { to: Out, text: ObjectIn, part: ObjectIn, end: TextEnd }
+    /// to = the changed text. Costs the size of the text over 8.
+    ChangeText "change_text" { to: ObjectOut, text: ObjectIn, change: TextChange }
+    /// to = the text with `by` in place of each `part`, unless that is empty. Costs the sizes of all over 8.
+    ReplaceText "replace_text" { to: ObjectOut, text: ObjectIn, part: ObjectIn, by: ObjectIn }
+    /// to = the texts of a list with `separator` between them. Costs the size of the result over 8, and 1 for each text.
+    JoinTexts "join_texts" { to: ObjectOut, list: ObjectIn, separator: ObjectIn }
+    /// to = an optional Int or finite Float: the number that the text is. Costs the size of the text over 8.
+    NumberOfText "number_of_text" { to: PairOut, text: ObjectIn, format: Format }
 
     // Lists; what only reads is for sets too. An element is a block: its scalars from `scalars` on,
     // its objects from `objects` on. Reading an element with objects shares them.

@@ -295,6 +295,24 @@ choice! {
         Remainder "remainder",
     }
 
+    /// How a text is changed.
+    TextChange {
+        /// To small letters.
+        Lower "lower",
+        /// To capital letters.
+        Upper "upper",
+        /// Without white space at both ends.
+        Trim "trim",
+    }
+
+    /// An end of a text.
+    TextEnd {
+        /// Its start.
+        Start "start",
+        /// Its end.
+        End "end",
+    }
+
     /// How a scalar is written into a text.
     Format {
         /// `true` or `false`.

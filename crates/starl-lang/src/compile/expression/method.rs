@@ -5,7 +5,7 @@ use crate::compile::body::{Body, Slot};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::{Expression, Type};
-use crate::machine::operand::{Immediate, ObjectIn};
+use crate::machine::operand::{Format, Immediate, ObjectIn, PairOut, TextChange, TextEnd};
 use crate::machine::{Instruction, operand};
 
 impl<'p> Body<'_, 'p> {
@@ -92,6 +92,45 @@ impl<'p> Body<'_, 'p> {
                 text: from,
                 separator: self.object(self.argument_of(arguments, 0)?)?,
                 kind: self.object_type(&expression.ty)?,
+            },
+            Method::StringStartsWith | Method::StringEndsWith => Instruction::MatchText {
+                to: output,
+                text: from,
+                part: self.object(self.argument_of(arguments, 0)?)?,
+                end: match method {
+                    Method::StringStartsWith => TextEnd::Start,
+                    _ => TextEnd::End,
+                },
+            },
+            Method::StringLower | Method::StringUpper | Method::StringTrim => {
+                Instruction::ChangeText {
+                    to: object,
+                    text: from,
+                    change: match method {
+                        Method::StringLower => TextChange::Lower,
+                        Method::StringUpper => TextChange::Upper,
+                        _ => TextChange::Trim,
+                    },
+                }
+            }
+            Method::StringReplace => Instruction::ReplaceText {
+                to: object,
+                text: from,
+                part: self.object(self.argument_of(arguments, 0)?)?,
+                by: self.object(self.argument_of(arguments, 1)?)?,
+            },
+            Method::ListJoin => Instruction::JoinTexts {
+                to: object,
+                list: from,
+                separator: self.object(self.argument_of(arguments, 0)?)?,
+            },
+            Method::StringToInt | Method::StringToFloat => Instruction::NumberOfText {
+                to: PairOut(output.0),
+                text: from,
+                format: match method {
+                    Method::StringToInt => Format::Int,
+                    _ => Format::Float,
+                },
             },
             Method::AreaContains => Instruction::AreaContains {
                 to: output,

@@ -78,6 +78,20 @@ impl View<'_> {
                 separator,
                 ..
             } => self.split_text(to, text, separator),
+            MatchText {
+                to,
+                text,
+                part,
+                end,
+            } => self.match_text(to, text, part, end),
+            ChangeText { to, text, change } => self.change_text(to, text, change),
+            ReplaceText { to, text, part, by } => self.replace_text(to, text, part, by),
+            JoinTexts {
+                to,
+                list,
+                separator,
+            } => self.join_texts(to, list, separator),
+            NumberOfText { to, text, format } => self.number_of_text(to, text, format),
 
             ListGet {
                 list,

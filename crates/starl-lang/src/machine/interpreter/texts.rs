@@ -3,7 +3,8 @@
 use crate::machine::error::Fault;
 use crate::machine::interpreter::view::{View, shift};
 use crate::machine::operand::{
-    self, EnumIndex, Format, In, ObjectIn, ObjectInOut, ObjectOut, Out, PointIn, Text,
+    self, EnumIndex, Format, In, ObjectIn, ObjectInOut, ObjectOut, Out, PairOut, PointIn, Text,
+    TextChange, TextEnd,
 };
 use crate::machine::types::Type;
 use crate::machine::value::list::List;
@@ -121,6 +122,118 @@ impl View<'_> {
         };
         let cost = shift(text.len()) + 8 * parts.len() as u64;
         Ok(cost + self.put(to, List::of_objects(parts).into())?)
+    }
+}
+
+impl View<'_> {
+    pub fn match_text(
+        &mut self,
+        to: Out,
+        text: ObjectIn,
+        part: ObjectIn,
+        end: TextEnd,
+    ) -> Result<u64, Fault> {
+        let (text, part) = (self.read(text)?.text(), self.read(part)?.text());
+        let cost = part.len() / 8;
+        let matches = match end {
+            TextEnd::Start => text.starts_with(part),
+            TextEnd::End => text.ends_with(part),
+        };
+        self.set_bool(to, matches);
+        Ok(cost as u64)
+    }
+
+    pub fn change_text(
+        &mut self,
+        to: ObjectOut,
+        text: ObjectIn,
+        change: TextChange,
+    ) -> Result<u64, Fault> {
+        let text = self.read(text)?.text();
+        let cost = (text.len() / 8) as u64;
+        let changed: Object = match change {
+            TextChange::Lower => (&*text.to_lowercase()).into(),
+            TextChange::Upper => (&*text.to_uppercase()).into(),
+            TextChange::Trim => text.trim().into(),
+        };
+        Ok(cost + self.put(to, changed)?)
+    }
+
+    pub fn replace_text(
+        &mut self,
+        to: ObjectOut,
+        text: ObjectIn,
+        part: ObjectIn,
+        by: ObjectIn,
+    ) -> Result<u64, Fault> {
+        let (text, part) = (self.read(text)?.text(), self.read(part)?.text());
+        let by = self.read(by)?.text();
+        let count = match part {
+            "" => 0,
+            part => text.matches(part).count(),
+        };
+        let size = text.len() - count * part.len() + count.saturating_mul(by.len());
+        self.fits(size)?;
+        let replaced: Object = match count {
+            0 => text.into(),
+            _ => (&*text.replace(part, by)).into(),
+        };
+        let cost = (text.len() + part.len() + size) / 8;
+        Ok(cost as u64 + self.put(to, replaced)?)
+    }
+
+    pub fn join_texts(
+        &mut self,
+        to: ObjectOut,
+        list: ObjectIn,
+        separator: ObjectIn,
+    ) -> Result<u64, Fault> {
+        let (list, separator) = (self.read(list)?.list(), self.read(separator)?.text());
+        let texts = || {
+            let elements = list.into_iter().flat_map(|list| list.iter());
+            elements.map(|element| element.objects.first().map_or("", Object::text))
+        };
+        let count = texts().count();
+        let between = count.saturating_sub(1).saturating_mul(separator.len());
+        let size = between.saturating_add(texts().map(str::len).sum());
+        self.fits(size)?;
+        let mut joined = String::with_capacity(size);
+        for (number, text) in texts().enumerate() {
+            joined.push_str(if number > 0 { separator } else { "" });
+            joined.push_str(text);
+        }
+        let cost = (count + size / 8) as u64;
+        Ok(cost + self.put(to, (&*joined).into())?)
+    }
+
+    pub fn number_of_text(
+        &mut self,
+        to: PairOut,
+        text: ObjectIn,
+        format: Format,
+    ) -> Result<u64, Fault> {
+        let text = self.read(text)?.text();
+        let cost = (text.len() / 8) as u64;
+        let number = match format {
+            Format::Float => {
+                let number = text.parse::<f64>().ok();
+                number.filter(|number| number.is_finite()).map(f64::to_bits)
+            }
+            _ => text.parse::<i64>().ok().map(|number| number as u64),
+        };
+        self.registers[usize::from(to.0)] = u64::from(number.is_some());
+        self.registers[usize::from(to.0.wrapping_add(1))] = number.unwrap_or(0);
+        Ok(cost)
+    }
+
+    /// An error if a text of this size is beyond what all values may take together.
+    fn fits(&self, size: usize) -> Result<(), Fault> {
+        match size <= self.meter.budget {
+            true => Ok(()),
+            false => Err(Fault::OutOfMemory {
+                budget: self.meter.budget as u64,
+            }),
+        }
     }
 }
 

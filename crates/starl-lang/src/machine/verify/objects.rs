@@ -3,6 +3,7 @@
 use super::flow::{Broken, Context};
 use super::rules::{WRONG_TYPE, exists, same};
 use crate::machine::instruction::Instruction;
+use crate::machine::operand::Format;
 use crate::machine::types::{ObjectType, Type};
 
 impl Context<'_> {
@@ -62,10 +63,33 @@ impl Context<'_> {
                 exists(enums.get(usize::from(of.0)), "there is no such enum")?;
                 self.is_text(text.0)
             }
-            ContainsText { text, part, .. } => {
+            ContainsText { text, part, .. } | MatchText { text, part, .. } => {
                 self.is_text(text.0)?;
                 self.is_text(part.0)
             }
+            ChangeText { to, text, .. } => {
+                self.is_text(text.0)?;
+                self.write_text(to.0)
+            }
+            ReplaceText { to, text, part, by } => {
+                self.is_text(text.0)?;
+                self.is_text(part.0)?;
+                self.is_text(by.0)?;
+                self.write_text(to.0)
+            }
+            JoinTexts {
+                to,
+                list,
+                separator,
+            } => {
+                self.is_list_of_texts(self.object(list.0)?)?;
+                self.is_text(separator.0)?;
+                self.write_text(to.0)
+            }
+            NumberOfText { text, format, .. } => match format {
+                Format::Int | Format::Float => self.is_text(text.0),
+                _ => Err(WRONG_TYPE),
+            },
             SplitText {
                 to,
                 text,
@@ -74,11 +98,7 @@ impl Context<'_> {
             } => {
                 self.is_text(text.0)?;
                 self.is_text(separator.0)?;
-                let parts = self.list_parts(kind.0)?;
-                let text = self.find(&ObjectType::Text)?;
-                if !parts.element.scalars.is_empty() || parts.element.objects != [text] {
-                    return Err(WRONG_TYPE);
-                }
+                self.is_list_of_texts(kind.0)?;
                 self.write_object(to.0, kind.0)
             }
             Circle { to, .. } => {
@@ -98,6 +118,20 @@ impl Context<'_> {
                 _ => Err(WRONG_TYPE),
             },
             _ => self.particular_to_collections(instruction),
+        }
+    }
+
+    fn write_text(&mut self, operand: u8) -> Result<(), Broken> {
+        let text = self.find(&ObjectType::Text)?;
+        self.write_object(operand, text)
+    }
+
+    fn is_list_of_texts(&self, kind: u16) -> Result<(), Broken> {
+        let parts = self.list_parts(kind)?;
+        let text = self.find(&ObjectType::Text)?;
+        match parts.element.scalars.is_empty() && parts.element.objects == [text] {
+            true => Ok(()),
+            false => Err(WRONG_TYPE),
         }
     }
 

@@ -25,8 +25,60 @@ fn operators_and_methods() {
             ("\"a,b,\".split(\",\")", "[\"a\", \"b\", \"\"]"),
             ("s.split(\"\")", "[\"caf\u{e9}\"]"),
             ("\"1 2\".split(\" \")[1]", "2"),
+            ("s.upper()", "CAF\u{c9}"),
+            ("s.upper().lower()", "caf\u{e9}"),
+            ("\"stra\u{df}e\".upper()", "STRASSE"),
+            ("t.lower()", ""),
+            ("\" a b\\n\".trim()", "a b"),
+            ("s.starts_with(\"ca\")", "true"),
+            ("s.starts_with(\"af\")", "false"),
+            ("s.starts_with(t)", "true"),
+            ("s.ends_with(\"\u{e9}\")", "true"),
+            ("t.ends_with(s)", "false"),
+            ("\"a-b-c\".replace(\"-\", \", \")", "a, b, c"),
+            ("\"aaa\".replace(\"aa\", \"b\")", "ba"),
+            ("s.replace(\"\", \"x\")", "caf\u{e9}"),
+            ("s.replace(s, s + s)", "caf\u{e9}caf\u{e9}"),
+            ("[\"a\", \"\", s].join(\"/\")", "a//caf\u{e9}"),
+            ("[s].join(s)", "caf\u{e9}"),
+            ("\"a b\".split(\" \").join(t)", "ab"),
         ],
     );
+}
+
+#[test]
+fn numbers_are_read_from_texts() {
+    values(
+        DECLARATIONS,
+        &[
+            ("\"12\".to_int()", "12"),
+            ("\"-9223372036854775808\".to_int()", "-9223372036854775808"),
+            ("\"9223372036854775808\".to_int()", "none"),
+            ("\" 12 \".to_int()", "none"),
+            ("\" 12 \".trim().to_int() ?? 0", "12"),
+            ("\"1.5\".to_int()", "none"),
+            ("\"1_000\".to_int()", "none"),
+            ("t.to_int()", "none"),
+            ("\"2\".to_float()", "2.0"),
+            ("\"-1.5e-3\".to_float()", "-0.0015"),
+            ("\"1e999\".to_float()", "none"),
+            ("\"NaN\".to_float()", "none"),
+            ("\"inf\".to_float()", "none"),
+            ("s.to_float()", "none"),
+            ("String(12).to_int()", "12"),
+        ],
+    );
+}
+
+/// A text of a megabyte and more is an error before it is made.
+#[test]
+fn a_text_that_would_be_too_long_is_not_made() {
+    let double = "let u = \"aaaaaaaa\"\nfor i in 0..14\n    u += u\n";
+    for grow in ["u.replace(\"a\", u)", "[u for i in 0..20].join(u)"] {
+        let body = format!("{double}log(\"{{}}\", {grow}.size())");
+        let fault = effect("s: String = \"a\"", &body).unwrap_err();
+        assert!(format!("{fault:?}").contains("OutOfMemory"), "{fault:?}");
+    }
 }
 
 #[test]

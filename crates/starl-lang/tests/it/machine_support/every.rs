@@ -164,6 +164,11 @@ function start procedure () () registers 40 objects 20
     append_quoted b2 b0
     contains_text r6 b2 b1
     split_text b4 b0 b1 type4
+    match_text r6 b2 b1 start
+    change_text b2 b1 trim
+    replace_text b2 b1 b0 b1
+    join_texts b2 b4 b0
+    number_of_text r6 b2 float
     equal_object r6 b0 b1 type0
     less_object r6 b0 b1 type0
     load_object b5 s0

@@ -163,9 +163,14 @@ impl Generator<'_> {
     }
 
     fn string(&mut self, context: Context, depth: u32) -> Text {
-        match self.choices.below(4) {
+        match self.choices.below(6) {
             0 if self.place.asks() => self.applied("robot_name", &[&Robot], depth),
             0 | 1 => self.binary("+", SUM, [&Str, &Str], context, depth),
+            2 => match self.choices.below(5) {
+                0 => self.method(&Type::list(Str), "join", &[&Str], depth),
+                1 => self.method(&Str, "replace", &[&Str, &Str], depth),
+                other => self.method(&Str, ["lower", "upper", "trim"][other - 2], &[], depth),
+            },
             _ => {
                 let ty = self.made_type(1);
                 let value = self.expression(&ty, Context::Unknown, depth);
@@ -316,7 +321,10 @@ impl Generator<'_> {
                 &[&element],
                 depth,
             ),
-            3 => self.method(&Str, "contains", &[&Str], depth),
+            3 => {
+                let name = ["contains", "starts_with", "ends_with"][self.choices.below(3)];
+                self.method(&Str, name, &[&Str], depth)
+            }
             _ => self.method(&Type::Area, "contains", &[&Point], depth),
         }
     }

@@ -164,6 +164,22 @@ pub fn method(method: Method, receiver: Value, arguments: Vec<Value>) -> Outcome
         ),
         ("contains", Map(map), Some(key), _) => Bool(find(&map, &key).is_some()),
         ("contains", Text(text), Some(Text(part)), _) => Bool(text.contains(&part)),
+        ("starts_with", Text(text), Some(Text(part)), _) => Bool(text.starts_with(&part)),
+        ("ends_with", Text(text), Some(Text(part)), _) => Bool(text.ends_with(&part)),
+        ("lower", Text(text), ..) => Text(text.to_lowercase()),
+        ("upper", Text(text), ..) => Text(text.to_uppercase()),
+        ("trim", Text(text), ..) => Text(text.trim().into()),
+        ("replace", Text(text), Some(Text(part)), Some(Text(by))) => Text(match &part[..] {
+            "" => text,
+            part => text.replace(part, &by),
+        }),
+        ("join", List(list), Some(Text(separator)), _) => {
+            let texts = list.into_iter().map(|text| match text {
+                Text(text) => text,
+                other => panic!("join of {other:?}"),
+            });
+            Text(texts.collect::<Vec<_>>().join(&separator))
+        }
         ("contains", Value::Area(area), Some(Value::Point(point)), _) => {
             Bool(area.is_some_and(|area| area.contains(point)))
         }
