@@ -100,6 +100,15 @@ impl Checker {
             )),
             (Type::Robot, Type::Int, _) => problem.fix(number_of(left.span)),
             (Type::Int, Type::Robot, _) => problem.fix(number_of(right.span)),
+            (Type::List(inner), element, BinaryOperator::Add) if same(inner, element) => {
+                problem.fix(around("put it in brackets: a list of one", right.span, "[", "]"))
+            }
+            (Type::Set(inner), element, BinaryOperator::Add) if same(inner, element) => {
+                problem.note("`s.add(x)` adds an element")
+            }
+            (Type::Map(..), _, BinaryOperator::Add) => {
+                problem.note("`m[key] += x` changes the value of a key")
+            }
             (Type::Set(_), Type::Set(_), BinaryOperator::Add) => problem.note("it is `a.union(b)`"),
             (Type::Set(_), Type::Set(_), BinaryOperator::Subtract) => {
                 problem.note("it is `a.difference(b)`")

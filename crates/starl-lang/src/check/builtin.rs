@@ -94,18 +94,16 @@ impl Checker {
         let text = self.text(at).to_string();
         let diagnostics = &mut self.files[self.file as usize].checked.diagnostics;
         let is_meant = |problem: &&mut Diagnostic| {
-            problem.code == Code::WrongType && problem.span == at && problem.fix.is_none()
+            let is_open = problem.fix.is_none() || builtin == Builtin::Log;
+            problem.code == Code::WrongType && problem.span == at && is_open
         };
         let Some(problem) = diagnostics.get_mut(number).filter(is_meant) else {
             return;
         };
         let found = problem.found.clone().unwrap_or_default();
         let (message, span, form) = match (builtin, found.as_str()) {
-            (Builtin::Log | Builtin::Fail, _) => {
-                let form = match builtin {
-                    Builtin::Log => "\"{}\", ".to_string() + &text,
-                    _ => format!("String({text})"),
-                };
+            (Builtin::Log, _) => {
+                let form = "\"{}\", ".to_string() + &text;
                 (format!("write `{form}`"), at, form)
             }
             (Builtin::ToFloat, "Duration") => {

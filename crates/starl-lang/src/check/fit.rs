@@ -195,6 +195,38 @@ impl Checker {
                 let fix = "multiply it by a unit: `... * 1s` if these are seconds";
                 problem.fix(around(fix, span, before, &after))
             }
+            (Type::Int | Type::Optional(_), Type::Bool) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                let (text, form) = match found {
+                    Type::Int => (" != 0", "compare it: `... != 0`"),
+                    _ => (" != none", "test it: `... != none`"),
+                };
+                let (before, after) = operand(value, text);
+                problem.fix(around(form, span, before, &after))
+            }
+            (Type::List(_) | Type::Set(_) | Type::Map(..) | Type::String, Type::Bool) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                let (before, after) = operand(value, ".size() > 0");
+                problem.fix(around(
+                    "test its size: `x.size() > 0`",
+                    span,
+                    before,
+                    &after,
+                ))
+            }
+            (Type::Bool | Type::Int | Type::Float | Type::Duration | Type::Robot, Type::String) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                problem.fix(around(
+                    "convert it with `String(...)`",
+                    span,
+                    "String(",
+                    ")",
+                ))
+            }
+            (Type::String, Type::Int | Type::Float) => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                problem.note("`text.to_int()` and `text.to_float()` are optional numbers")
+            }
             (_, Type::Set(inner)) if same(found, inner) => {
                 let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
                 problem.fix(around("put it in braces: a set of one", span, "{", "}"))

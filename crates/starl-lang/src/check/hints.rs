@@ -320,6 +320,10 @@ const MEMBERS: &[(&[&str], &str)] = &[
         "write `[f(x) for x in xs if condition]`",
     ),
     (&["extend", "concat", "addAll"], "`xs + ys` joins two lists"),
+    (
+        &["norm", "length", "magnitude", "len"],
+        "`distance(p, Point(0.0, 0.0))` is the length of a point",
+    ),
     (&["copy", "clone"], "an assignment copies: `let y = x`"),
     (&["get", "at"], "`xs[i]` is the element at an index"),
 ];

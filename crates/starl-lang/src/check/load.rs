@@ -6,6 +6,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::report::did_you_mean;
+use super::standard::STANDARD;
 use super::state::{Checker, File};
 use super::{CheckedFile, Libraries, prelude};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -112,7 +113,9 @@ impl Loader<'_> {
             let message = format!("there is no library `{name}`");
             let problem = Diagnostic::new(Code::UnknownLibrary, span, message);
             let names = self.libraries.names();
-            let problem = did_you_mean(problem, span, name, names.iter().map(String::as_str));
+            let standard = STANDARD.iter().map(|(name, _)| *name);
+            let names = names.iter().map(String::as_str).chain(standard);
+            let problem = did_you_mean(problem, span, name, names);
             let note = match name {
                 "math" | "random" | "time" | "numpy" | "sys" | "os" | "typing" => {
                     "functions such as `sqrt`, `sin`, `random` and `now` need no import: remove the line".into()

@@ -222,8 +222,12 @@ impl Checker {
         let signature = member.signature();
         if signature.is_call {
             let message = format!("`{name}` is called");
-            let problem = Diagnostic::new(Code::NotCallable, at, message);
-            self.report(problem.note(member.text));
+            let problem = Diagnostic::new(Code::NotCallable, at, message).note(member.text);
+            let needs_none = signature.parameters.iter().all(|one| one.is_optional);
+            self.report(match needs_none {
+                true => problem.replace(format!("write `{name}()`"), Span::empty(at.end), "()"),
+                false => problem,
+            });
             return broken(span);
         }
         self.primitive_value(id, member, Vec::new(), &signature, at, span)
@@ -452,7 +456,19 @@ impl Checker {
             signature.is_call && !signature.parameters.is_empty()
         });
         let problem = match function {
-            Some(builtin) => problem.note(format!("it is a function: `{}`", builtin.text())),
+            Some(builtin) => {
+                let problem = problem.note(format!("it is a function: `{}`", builtin.text()));
+                match self.arguments_after(at) {
+                    Some(inner) => {
+                        let (value, rest) = (self.text(base.span), self.text(inner));
+                        let comma = if rest.is_empty() { "" } else { ", " };
+                        let form = format!("{name}({value}{comma}{rest})");
+                        let whole = Span::new(base.span.start, inner.end + 1);
+                        problem.replace(format!("write `{form}`"), whole, form)
+                    }
+                    None => problem,
+                }
+            }
             None => problem,
         };
         self.report(if names.is_empty() {

@@ -152,7 +152,10 @@ fn clauses_here(parser: &mut Parser<'_>, seen: &mut Seen) {
             PreKeyword | EffKeyword => {
                 seen.check(parser);
                 clause(parser);
-                parser.end_line();
+                match parser.at(EffKeyword) {
+                    true => split_line(parser),
+                    false => parser.end_line(),
+                }
             }
             _ if at_every(parser) => {
                 every(parser);
@@ -166,6 +169,18 @@ fn clauses_here(parser: &mut Parser<'_>, seen: &mut Seen) {
             _ => outside_eff(parser, seen),
         }
     }
+}
+
+/// Reports an `eff` on the line of the guard.
+fn split_line(parser: &mut Parser<'_>) {
+    let (end, word) = (parser.end_of_last(), parser.span());
+    let start = parser.start_of_line(word.start) as usize;
+    let line = &parser.text[start..word.start as usize];
+    let column = line.len() - line.trim_start().len();
+    let gap = Span::new(end, word.start);
+    let form = format!("\n{}", " ".repeat(column));
+    let problem = Diagnostic::new(Code::Unexpected, word, "`eff` begins a line");
+    parser.report(problem.replace("put it on the next line", gap, form));
 }
 
 /// Which clauses an action has so far.

@@ -31,8 +31,8 @@ pub(super) fn import(parser: &mut Parser<'_>) {
     parser.bump();
     name(parser);
     let rest = parser.end_of_last();
-    if parser.at_word("as") {
-        let message = "a library keeps its name";
+    if parser.at_word("as") || parser.at_word("from") {
+        let message = "a library is imported as a whole, by its name";
         drop_rest(parser, rest, message, |_| "".into());
     } else if parser.at(Comma) {
         let message = "each library is imported on a line of its own";
@@ -86,7 +86,13 @@ fn drop_rest(parser: &mut Parser<'_>, end: u32, message: &str, meant: fn(&str) -
 pub(super) fn parameter(parser: &mut Parser<'_>) {
     parser.bump();
     name(parser);
-    if parser.expect(Colon) {
+    let place = Span::empty(parser.end_of_last());
+    if let Some(ty) = type_ahead(parser, 1).filter(|_| parser.at(Equal)) {
+        let problem = Diagnostic::new(Code::Unexpected, place, "the parameter needs a type");
+        let form = format!(": {ty}");
+        parser.report(problem.replace(format!("write `{form}`"), place, form));
+        value(parser);
+    } else if parser.expect(Colon) {
         types::any(parser);
         range(parser);
         value(parser);

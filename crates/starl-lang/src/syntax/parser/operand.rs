@@ -220,7 +220,9 @@ fn conditional(parser: &mut Parser<'_>) -> Parsed {
 /// Whether `forall` or `exists` is next, with a name after it.
 fn is_quantifier(parser: &Parser<'_>) -> bool {
     let length = match words::quantifier(parser) {
-        Some((_, length)) => length,
+        // `all(x) in xs` calls a function.
+        Some((_, length)) if parser.nth(length) == Identifier => length,
+        Some(_) => return false,
         None if matches!(parser.word(), "forall" | "exists") => 1,
         None => return false,
     };

@@ -2,7 +2,7 @@
 //! `always name: condition leads_to condition within 30s`, `check condition`.
 
 use super::item::name;
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, expression, words};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, expression, slips, words};
 use crate::diagnostic::{Edit, Fix};
 
 /// Whether the word that is next begins a property rather than naming something.
@@ -17,12 +17,38 @@ pub(super) fn is_next(parser: &Parser<'_>) -> bool {
 
 /// Whether the word `check` that is next begins a check: `check: Bool` is a variable.
 pub(super) fn is_check(parser: &Parser<'_>) -> bool {
-    parser.nth(1) != Colon && (parser.nth(1) == LeftBracket || is_next(parser))
+    // `check: n < 5` has a colon that does not belong there.
+    let compares = parser.nth(2) == Identifier
+        && (parser.nth(3).is_comparison() || matches!(parser.nth(3), Dot | InKeyword));
+    let second = parser.nth_span(2).of(parser.text);
+    let is_small = second.starts_with(|first: char| first.is_ascii_lowercase());
+    match parser.nth(1) {
+        Colon => compares && is_small || parser.nth(2) == NotKeyword,
+        next => next == LeftBracket || is_next(parser),
+    }
 }
 
 /// A check, which has no name.
 pub(super) fn check(parser: &mut Parser<'_>) {
     parser.bump();
+    let is_named = parser.at(Identifier) && parser.nth(1) == Colon;
+    if is_named || parser.at(Colon) {
+        let last = parser.nth_span(usize::from(is_named));
+        let next = parser.nth_span(usize::from(is_named) + 1).start;
+        let problem = Diagnostic::new(
+            Code::Unexpected,
+            parser.span().to(last),
+            "a check has no name and no colon",
+        );
+        let place = match is_named {
+            true => Span::new(parser.span().start, next),
+            false => last,
+        };
+        parser.report(problem.replace("write the condition after `check`", place, ""));
+        parser.start(Error);
+        (0..=usize::from(is_named)).for_each(|_| parser.bump());
+        parser.finish();
+    }
     expression::condition(parser);
 }
 
@@ -55,7 +81,14 @@ pub(super) fn property(parser: &mut Parser<'_>) {
             false => problem.replace("write `:`", place, ":"),
         });
     }
-    if parser.at_word("leads_to") {
+    let leads = parser.at_word("leads") && parser.nth_span(1).of(parser.text) == "to";
+    if leads {
+        let span = parser.span().to(parser.nth_span(1));
+        let fix = ("write `leads_to`", "leads_to");
+        slips::foreign_operator(parser, span, "this is one word", fix);
+        parser.bump();
+    }
+    if leads || parser.at_word("leads_to") {
         parser.bump();
         expression::condition(parser);
     }

@@ -175,6 +175,7 @@ pub(super) fn foreign_statement(parser: &Parser<'_>) -> Option<&'static str> {
             "every activation ends: write an action, which runs again while its guard holds, or a `for`"
         }
         "switch" | "match" | "case" if heads && !calls(parser) => "write `if` and `elif`",
+        "unless" if heads && !calls(parser) => "write `if not (condition)`",
         "throw" | "raise" if heads && !calls(parser) => {
             "`fail(\"reason\")` stops the robot's program"
         }
@@ -223,8 +224,17 @@ pub(super) fn with_habit(parser: &Parser<'_>, expected: &str, problem: Diagnosti
         };
         return problem.replace(format!("write `{operator}`"), span, operator);
     }
+    if current == SyntaxKind::Colon && expected == "`then`" {
+        return problem.replace("write `then`", parser.span(), " then");
+    }
     let word = parser.word();
     let note = match (current, expected) {
+        (IfKeyword, expected) if expected == Newline.name() => {
+            "a statement with a condition is `if condition then statement`"
+        }
+        (LetKeyword, "a value") => "`if some y = x` names the value of an optional",
+        (Ellipsis, _) => "a range is `a..b`, and ends before `b`",
+        (Identifier, _) if word == "to" => "a range is `a..b`, and ends before `b`",
         (Question, _) if parser.nth(1) == Dot => {
             "an optional is tested: `if some y = x` names its value, and `x ?? default` replaces a missing one"
         }
@@ -234,6 +244,9 @@ pub(super) fn with_habit(parser: &Parser<'_>, expected: &str, problem: Diagnosti
         }
         (LeftBrace, _) if word_before.starts_with(|c: char| c.is_ascii_uppercase()) => {
             "a record is made by a call, as in `Pair(x = 1, y = 2)`"
+        }
+        (_, "`else`") if parser.at_line_end() => {
+            "a choice needs both values; for `a` implies `b`, write `not (a) or b`"
         }
         (Colon, "`]`") => "a part of a list is `xs.slice(start, end)`",
         (Comma, "`=`") => "the names of the parts of a tuple are in brackets: `let (a, b) = pair`",

@@ -128,7 +128,10 @@ fn branches(parser: &mut Parser<'_>, place: Place) {
             parser.current()
         };
         let word = parser.nth_span(usize::from(next_line)).of(parser.text);
-        let one_word = matches!(word, "elseif" | "elsif" | "elseIf") && place == Place::OwnLine;
+        let next = parser.nth(usize::from(next_line) + 1);
+        let asks = next.is_literal() || matches!(next, Identifier | NotKeyword | SomeKeyword);
+        let one_word =
+            matches!(word, "elseif" | "elsif" | "elseIf") && place == Place::OwnLine && asks;
         if !matches!(kind, ElifKeyword | ElseKeyword) && !one_word {
             break;
         }
@@ -174,7 +177,11 @@ fn branch(parser: &mut Parser<'_>) {
     parser.bump();
     condition(parser);
     slips::header_colon(parser, HeaderColon::Then);
-    let has_then = parser.eat(ThenKeyword);
+    let is_do = parser.at_word("do") && parser.nth(1) == Identifier;
+    if is_do {
+        words::replace(parser, "a statement follows `then`", "then");
+    }
+    let has_then = is_do || parser.eat(ThenKeyword);
     if has_then {
         slips::header_colon(parser, HeaderColon::Remove);
     }

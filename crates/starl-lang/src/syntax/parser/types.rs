@@ -2,7 +2,7 @@
 
 use alloc::format;
 
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, record};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*, record};
 
 /// The message about a tuple of one part.
 pub(super) const SHORT_TUPLE: &str = "a tuple has at least two parts";
@@ -56,9 +56,11 @@ fn single(parser: &mut Parser<'_>) -> bool {
         parser.bump();
         parser.expect(Identifier);
     }
+    let is_collection = matches!(name.of(parser.text), "List" | "Set" | "Map" | "Optional");
     match parser.current() {
         LeftBracket => arguments(parser),
-        Less => angle_arguments(parser),
+        Less => angle_arguments(parser, Greater),
+        LeftParen if is_collection => angle_arguments(parser, RightParen),
         _ => {}
     }
     parser.finish();
@@ -99,8 +101,8 @@ fn arguments(parser: &mut Parser<'_>) {
     parser.finish();
 }
 
-/// `List<Int>`, which is written `List[Int]`.
-fn angle_arguments(parser: &mut Parser<'_>) {
+/// `List<Int>` or `List(Int)`, which is written `List[Int]`.
+fn angle_arguments(parser: &mut Parser<'_>, closing: SyntaxKind) {
     let open = parser.span();
     let problem = Diagnostic::new(
         Code::Unexpected,
@@ -114,7 +116,7 @@ fn angle_arguments(parser: &mut Parser<'_>) {
         any(parser);
     }
     let close = parser.span();
-    if parser.at(Greater) {
+    if parser.at(closing) {
         parser.bump();
         let edits = [(open, "["), (close, "]")]
             .map(|(span, text)| crate::diagnostic::Edit::new(span, text));
