@@ -43,7 +43,8 @@ pub(super) fn message(parser: &mut Parser<'_>) {
 }
 
 fn fields(parser: &mut Parser<'_>, opening: SyntaxKind) {
-    if parser.at_line_end() && opening == LeftParen {
+    let is_named = parser.last_error != Some(parser.position);
+    if parser.at_line_end() && opening == LeftParen && is_named {
         let place = Span::empty(parser.end_of_last());
         let message = "a message has brackets after its name, also without fields";
         let problem = Diagnostic::new(Code::Unexpected, place, message);
