@@ -1,11 +1,12 @@
 //! Runs the built command as a user would.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 
 /// Two robots without obstacles; the run ends within a few simulated seconds.
 pub const SMALL: &str = r#"
@@ -30,12 +31,14 @@ position_noise = "5mm"
 loss = "20%"
 "#;
 
-/// A folder of the test's own, empty at first. Tests run at the same time, so that no two may have one folder.
+/// A folder of the test's own, empty at first. Tests run at the same time, so that two may not have one folder.
 pub fn folder(test: &str) -> PathBuf {
-    static TAKEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let mut taken = TAKEN.lock().unwrap_or_else(PoisonError::into_inner);
-    assert!(taken.insert(test.to_string()), "{test} is taken twice");
-    drop(taken);
+    static OWNERS: Mutex<BTreeMap<String, Option<String>>> = Mutex::new(BTreeMap::new());
+    let me = thread::current().name().map(str::to_string);
+    let mut owners = OWNERS.lock().unwrap_or_else(PoisonError::into_inner);
+    let owner = owners.entry(test.to_string()).or_insert_with(|| me.clone());
+    assert_eq!(*owner, me, "both have the folder {test}");
+    drop(owners);
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("the test's folder can be made");
