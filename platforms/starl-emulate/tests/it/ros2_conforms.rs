@@ -11,15 +11,22 @@ use starl_ros2::graph::Qos;
 use starl_ros2::message::{LaserScan, Message};
 use starl_ros2::node::Context;
 use starl_ros2::{Ros2Options, Ros2Robot};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 use std::sync::{Arc, Mutex};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// An endpoint that was free a moment ago.
+/// An endpoint that was free a moment ago, and that no other test is given.
 fn endpoint() -> String {
-    let socket = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-    format!("tcp/{}", socket.local_addr().unwrap())
+    static GIVEN: Mutex<BTreeSet<u16>> = Mutex::new(BTreeSet::new());
+    loop {
+        let socket = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+        let port = socket.local_addr().unwrap().port();
+        if GIVEN.lock().unwrap().insert(port) {
+            return format!("tcp/127.0.0.1:{port}");
+        }
+    }
 }
 
 struct Robot {
