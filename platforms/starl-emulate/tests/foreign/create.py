@@ -35,6 +35,7 @@ def drive(robot, right, left, seconds):
 def main():
     with Emulator(sys.argv[1]) as emulator:
         robot = Create2(emulator.where["create"])
+        robot.SCI.ser.timeout = 10  # The package waits for one second, in which a busy machine may not answer.
         x, y, _, yaw = emulator.pose("create")
 
         robot.start()
