@@ -25,11 +25,15 @@ def counted(after, before):
     return ((after - before + 0x8000) & 0xFFFF) - 0x8000
 
 
-def drive(robot, right, left, seconds):
+def drive(emulator, robot, right, left, seconds):
+    """Drives, and waits until the robot stands, which takes a moment where the machine is busy."""
     robot.drive_direct(right, left)
     time.sleep(seconds)
     robot.drive_direct(0, 0)
-    time.sleep(0.1)
+    before = None
+    while (pose := emulator.pose("create")) != before:
+        before = pose
+        time.sleep(0.2)
 
 
 def main():
@@ -40,13 +44,13 @@ def main():
 
         robot.start()
         assert robot.get_sensors().open_interface_mode == 1, "128 leads to passive mode"
-        drive(robot, 300, 300, 0.3)
+        drive(emulator, robot, 300, 300, 0.3)
         assert emulator.pose("create")[:2] == [x, y], "a robot in passive mode drives"
 
         robot.safe()
         first = robot.get_sensors()
         assert first.open_interface_mode == 2, "131 leads to safe mode"
-        drive(robot, 200, 200, 2.0)
+        drive(emulator, robot, 200, 200, 2.0)
         ahead = emulator.pose("create")
         way = math.hypot(ahead[0] - x, ahead[1] - y)
         near("metres driven", way, 0.4, 0.05)
@@ -58,7 +62,7 @@ def main():
             counts = counted(getattr(second, wheel), getattr(first, wheel))
             near(f"{wheel}, m", counts * METRES_PER_COUNT, way, 0.002)
 
-        drive(robot, 150, -150, 1.0)
+        drive(emulator, robot, 150, -150, 1.0)
         turned = emulator.pose("create")[3] - yaw
         near("rad turned to the left", turned, 0.3 / 0.235, 0.15)
         third = robot.get_sensors()
