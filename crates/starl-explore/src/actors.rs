@@ -18,6 +18,8 @@ pub(crate) struct Actors {
     rows: Rows,
     /// Datagrams in ascending order, as [`Flying`].
     mailboxes: Table,
+    /// By actor: a bit for each datagram in its mailbox; several may share one.
+    marks: Vec<u32>,
     /// By actor; only the requested ones.
     pub prospects: Vec<Option<Prospects>>,
     pub moves: Vec<Move>,
@@ -55,6 +57,7 @@ impl Actors {
             bounds,
             rows: Rows::new(2, 0),
             mailboxes: Table::default(),
+            marks: Vec::new(),
             prospects: Vec::new(),
             moves: Vec::new(),
             posted: Rows::new(2, 0),
@@ -64,10 +67,14 @@ impl Actors {
 
     /// The number of a robot's state with this mailbox.
     pub fn number(&mut self, local: u32, mailbox: &[u32]) -> u32 {
-        let (mailbox, _) = self.mailboxes.insert(mailbox);
-        let (number, is_new) = self.rows.insert(&[local, mailbox], &[]);
+        let (number_of_mailbox, _) = self.mailboxes.insert(mailbox);
+        let (number, is_new) = self.rows.insert(&[local, number_of_mailbox], &[]);
         if is_new {
             self.prospects.push(None);
+            let marks = mailbox
+                .iter()
+                .map(|&word| 1 << (Flying(word).number() % 32));
+            self.marks.push(marks.fold(0, |all, mark| all | mark));
         }
         number
     }
@@ -80,6 +87,12 @@ impl Actors {
     /// The datagrams that are on their way to an actor.
     pub fn mailbox(&self, actor: u32) -> &[u32] {
         self.mailboxes.row(self.rows.row(actor)[1])
+    }
+
+    /// A bit for each datagram in the mailboxes of these actors; several may share one.
+    pub fn marks(&self, actors: &[u32]) -> u32 {
+        let marks = actors.iter().map(|&actor| self.marks[actor as usize]);
+        marks.fold(0, |all, marks| all | marks)
     }
 
     /// An actor to which a datagram was sent.
@@ -139,6 +152,7 @@ impl Actors {
     pub fn bytes(&self) -> usize {
         self.rows.bytes()
             + self.mailboxes.bytes()
+            + self.marks.capacity() * size_of::<u32>()
             + self.posted.bytes()
             + self.after_post.capacity() * size_of::<u32>()
             + self.prospects.capacity() * size_of::<Option<Prospects>>()

@@ -123,6 +123,15 @@ impl Left {
         Some(left)
     }
 
+    /// Whether at least as much remains of each bound.
+    pub fn is_at_least(self, other: Left) -> bool {
+        self.losses >= other.losses
+            && self.duplicates >= other.duplicates
+            && self.crashes >= other.crashes
+            && self.suspicions >= other.suspicions
+            && self.timers >= other.timers
+    }
+
     pub fn words(self) -> [u32; Left::WORDS] {
         let Left {
             losses,

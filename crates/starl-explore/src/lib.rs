@@ -11,6 +11,7 @@
 mod actors;
 mod bounds;
 mod code;
+mod cover;
 mod doubt;
 mod expand;
 mod model;

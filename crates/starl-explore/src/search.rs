@@ -1,13 +1,14 @@
 //! Breadth-first search through all states (Moore 1959), so that the first violation found has the fewest steps.
 //!
 //! A state is a row of words: the number of the checkers' state and the remaining bounds, and the number of each
-//! robot's state with its datagrams in transit. The row contains everything that the next steps depend on, and rows are
-//! compared whole.
+//! robot's state with its datagrams in transit. The row contains everything that the next steps depend on. States are
+//! compared whole, and those that a known one covers are left out ([`crate::cover`]).
 
 use crate::Setup;
 use crate::actors::Actors;
 use crate::bounds::{Bounds, Left};
 use crate::code::{Code, Flying, MOST_ROBOTS};
+use crate::cover::{Candidate, Covers};
 use crate::doubt::Doubt;
 use crate::robots::{NOTHING, Robots};
 use crate::scene::{Invariant, Scene};
@@ -18,6 +19,7 @@ use crate::watch::Watches;
 use starl_core::event::PrimitiveEvent;
 use starl_core::{Event, RobotId};
 use starl_properties::Violation;
+use std::collections::BTreeSet;
 
 /// A search under way.
 #[derive(Clone)]
@@ -33,6 +35,10 @@ pub struct Search {
     pub(crate) actors: Actors,
     /// Rows of a head and the actors; with each the state before it, and the step from there.
     pub(crate) states: Rows,
+    /// None where a fleet that waits for a lost datagram counts: a state that covers another one does not wait.
+    covers: Option<Covers>,
+    /// States that need not be expanded, since others cover them that are as near to the start.
+    covered: BTreeSet<u32>,
     /// The first state that was not expanded.
     next: u32,
     /// The first state that is further from the start than those that are expanded now.
@@ -72,9 +78,9 @@ pub struct Counterexample {
 /// How far a search is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Report {
-    /// States found so far, the first included.
+    /// States found so far, the first included, without those that were covered when they were reached.
     pub states: u32,
-    /// Of these, how many were expanded.
+    /// Of these, how many were expanded, or need not be.
     pub expanded: u32,
     /// Steps from expanded states.
     pub transitions: u64,
@@ -127,7 +133,9 @@ impl Search {
             judged: Table::default(),
             heads: Rows::new(1 + Left::WORDS, 0),
             actors: Actors::new(walk.bounds),
-            states: Rows::new(HEAD + walk.locals.len(), 2),
+            states: Rows::new(0, 2),
+            covers: None,
+            covered: BTreeSet::new(),
             next: 0,
             level: 1,
             depth: 0,
@@ -149,7 +157,7 @@ impl Search {
             let actor = search.actors.number(local, &mailbox);
             search.row.push(actor);
         }
-        search.states.insert(&search.row, &[0, 0]);
+        search.set_covering(!walk.surroundings.model.all_finish);
         if let Some(violation) = search.judge() {
             search.blame(0, None, violation);
         }
@@ -163,6 +171,14 @@ impl Search {
     /// states. To be called before the first [`Search::advance`].
     pub fn set_doubting(&mut self, doubting: bool) {
         self.robots.doubt = doubting.then(Box::<Doubt>::default);
+    }
+
+    /// Whether states that others cover are left out; they are, by default, unless all robots must finish. The other
+    /// search takes longer and finds the same. To be called before the first [`Search::advance`].
+    pub fn set_covering(&mut self, covering: bool) {
+        self.covers = covering.then(|| Covers::new(self.row.len() - HEAD));
+        self.states = Rows::new(self.row.len(), 2);
+        self.number_of_row(0, 0);
     }
 
     /// Expands up to this number of states; returns the end of the search once it has ended.
@@ -205,6 +221,7 @@ impl Search {
             motions: self.robots.motions,
             compared: self.robots.doubt.as_ref().map_or(0, |doubt| doubt.compared),
             bytes: self.states.bytes()
+                + self.covers.as_ref().map_or(0, Covers::bytes)
                 + self.heads.bytes()
                 + self.actors.bytes()
                 + self.robots.bytes()
@@ -232,6 +249,9 @@ impl Search {
         }
         let state = self.next;
         self.next += 1;
+        if self.covered.remove(&state) {
+            return;
+        }
         self.expand(state);
         let doubt = self.robots.doubt.as_ref();
         if let Some(text) = doubt.and_then(|doubt| doubt.contradiction.clone()) {
@@ -242,12 +262,41 @@ impl Search {
     /// Enters the state that the row at hand leads to; gives its number, or none where something is violated.
     pub(crate) fn enter(&mut self, from: u32, code: Code) -> Option<u32> {
         self.transitions += 1;
-        let (number, is_new) = self.states.insert(&self.row, &[from, code.0]);
+        let (number, is_new) = self.number_of_row(from, code.0);
         if is_new && let Some(violation) = self.judge() {
             self.blame(number, None, violation);
             return None;
         }
         Some(number)
+    }
+
+    /// The number of the state with the row at hand, or of one that covers it; and whether it is new.
+    fn number_of_row(&mut self, from: u32, code: u32) -> (u32, bool) {
+        let (watch, left) = self.head(self.row[0]);
+        let Some(covers) = &mut self.covers else {
+            return self.states.insert(&self.row, &[from, code]);
+        };
+        let group = covers.group(watch, &self.row, &self.actors);
+        let (states, heads) = (&self.states, &self.heads);
+        let new = Candidate {
+            row: &self.row,
+            left,
+        };
+        let known = |number: u32| {
+            let row = states.row(number);
+            let left = Left::read(&heads.row(row[0])[1..]);
+            Candidate { row, left }
+        };
+        if let Some(known) = covers.find(group, new, &self.actors, known) {
+            return (known, false);
+        }
+        let number = states.len();
+        let covered = covers.add(group, number, new, &self.actors, known);
+        // Those of the present level are not further from the start than this one.
+        let level = self.level;
+        self.covered
+            .extend(covered.into_iter().filter(|&other| other >= level));
+        (self.states.push(&self.row, &[from, code]), true)
     }
 
     /// The states of the checkers, and the remaining bounds.

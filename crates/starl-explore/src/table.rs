@@ -97,30 +97,43 @@ impl Rows {
 
     /// The number of a row, and whether it is new; only if it is, `more` is kept with it.
     pub fn insert(&mut self, row: &[u32], more: &[u32]) -> (u32, bool) {
-        debug_assert_eq!((row.len(), row.len() + more.len()), (self.key, self.width));
+        let Rows {
+            key, width, chunks, ..
+        } = &*self;
+        let place = match self
+            .index
+            .find(row, |number| &all_of(chunks, *width, number)[..*key])
+        {
+            Ok(found) => return (found, false),
+            Err(place) => place,
+        };
+        let number = self.push(row, more);
         let Rows {
             key,
             width,
             chunks,
-            len,
             index,
+            ..
         } = self;
-        let place = match index.find(row, |number| &all_of(chunks, *width, number)[..*key]) {
-            Ok(found) => return (found, false),
-            Err(place) => place,
-        };
-        let number = *len;
-        *len += 1;
-        if number.is_multiple_of(CHUNK) {
-            chunks.push(Vec::with_capacity(CHUNK as usize * *width));
-        }
-        let chunk = &mut chunks[(number / CHUNK) as usize];
-        chunk.extend_from_slice(row);
-        chunk.extend_from_slice(more);
         index.enter(place, number, |number| {
             &all_of(chunks, *width, number)[..*key]
         });
         (number, true)
+    }
+
+    /// Adds a row that [`Rows::insert`] does not find. Gives its number.
+    pub fn push(&mut self, row: &[u32], more: &[u32]) -> u32 {
+        debug_assert_eq!((row.len(), row.len() + more.len()), (self.key, self.width));
+        let number = self.len;
+        self.len += 1;
+        if number.is_multiple_of(CHUNK) {
+            let chunk = Vec::with_capacity(CHUNK as usize * self.width);
+            self.chunks.push(chunk);
+        }
+        let chunk = &mut self.chunks[(number / CHUNK) as usize];
+        chunk.extend_from_slice(row);
+        chunk.extend_from_slice(more);
+        number
     }
 
     /// Memory in use, bytes.

@@ -11,7 +11,7 @@ fn explore(ticks: u16, delay: Option<u8>, crashes: u8) -> (u32, u64, u32) {
     all_is_well(registration(ticks, delay, crashes), 0)
 }
 
-fn registration(ticks: u16, delay: Option<u8>, crashes: u8) -> Setup {
+pub fn registration(ticks: u16, delay: Option<u8>, crashes: u8) -> Setup {
     let options = Options {
         settle: Duration::from_seconds(1),
         gather: Duration::from_seconds(1),
@@ -45,15 +45,15 @@ fn robots_agree_in_the_explorations() {
 
 #[test]
 fn where_datagrams_arrive_within_a_tick_or_not_at_all() {
-    assert_eq!(explore(2, Some(0), 0), (17_385, 32_561, 26));
+    assert_eq!(explore(2, Some(0), 0), (16_546, 31_455, 26));
 }
 
 #[test]
 fn where_datagrams_take_any_time() {
-    assert_eq!(explore(1, None, 0), (16_254, 43_273, 19));
+    assert_eq!(explore(1, None, 0), (9_540, 30_090, 18));
 }
 
 #[test]
 fn with_a_crash() {
-    assert_eq!(explore(1, Some(0), 1), (124_057, 280_318, 23));
+    assert_eq!(explore(1, Some(0), 1), (97_198, 225_127, 23));
 }
