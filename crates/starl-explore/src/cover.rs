@@ -1,11 +1,11 @@
 //! States whose behaviours are all among those of a known state are not explored.
 //!
-//! A datagram may always be late for ever. So where two states have the same robots and checkers, and each datagram in
-//! transit in the one is also in transit in the other and not older there, with at least as much left of the bounds, the
-//! other *covers* it: whatever can happen in the one can happen in the other, and checkers see the same. (Steps are
-//! monotone in this order: Finkel and Schnoebelen 2001, "Well-structured transition systems everywhere!". Karp and
-//! Miller 1969 cover the markings of Petri nets in this way.) A state is only left out for one that is not further from
-//! the start, so the first violation found still has the fewest steps.
+//! A state *covers* another one if robots and checkers are the same, if each datagram in transit there is also in transit
+//! here and not older, and if at least as much is left of each bound. A datagram may always be late for ever. So whatever
+//! can happen there can happen here, and checkers see the same. (Steps are monotone in this order: Finkel and Schnoebelen
+//! 2001, "Well-structured transition systems everywhere!". Karp and Miller 1969 cover the markings of Petri nets so.) A
+//! state is only left out for one that is not further from the start, so the first violation found still has the fewest
+//! steps.
 
 use crate::actors::Actors;
 use crate::bounds::Left;
@@ -30,7 +30,7 @@ struct Member {
     marks: u32,
 }
 
-/// What is compared of a state: its row, and what is left of the bounds.
+/// A state as it is compared: its row, and what is left of the bounds.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidate<'a> {
     pub row: &'a [u32],
@@ -124,14 +124,14 @@ fn holds(one: &[u32], other: &[u32]) -> bool {
     if one.len() < other.len() {
         return false;
     }
-    // Each takes the oldest that is young enough for it, which leaves the youngest to others.
+    // The youngest first. Whatever is young enough for it is so for all that follow, so it does not matter which it takes.
     let mut taken = smallvec::SmallVec::<[bool; 32]>::from_elem(false, one.len());
     other.iter().all(|&word| {
         let wanted = Flying(word).number();
         let is_it = |place: &usize| {
             !taken[*place] && Flying(one[*place]).number() == wanted && one[*place] <= word
         };
-        let place = (0..one.len()).rev().find(is_it);
+        let place = (0..one.len()).find(is_it);
         if let Some(place) = place {
             taken[place] = true;
         }

@@ -147,5 +147,5 @@ fn ballots_with_a_crash_while_a_tick_passes() {
 #[ignore = "takes minutes without optimisation"]
 fn ballots_with_a_crash() {
     let election = election(election::Algorithm::Ballots, 2, 1);
-    assert_eq!(all_is_well(election, 3), (5_418_202, 85_070_673, 38));
+    assert_eq!(all_is_well(election, 3), (2_514_373, 36_677_399, 37));
 }

@@ -64,7 +64,7 @@ fn leases() {
 fn leases_that_end() {
     assert_eq!(
         explore(Algorithm::Leases, 2, 0, 0),
-        (1_429_831, 6_294_910, 30)
+        (682_586, 3_283_073, 29)
     );
 }
 

@@ -87,7 +87,21 @@ fn election_by_leases() {
 }
 
 #[test]
-fn two_messages_of_one_robot_in_fifo_order() {
-    let broadcasts = broadcasts(Order::Fifo, &[2, 0, 0]);
-    assert_eq!(explore(broadcasts, 0), (235_808, 916_867, 19));
+fn two_messages_of_one_robot() {
+    let sizes = [
+        (Order::Unordered, (235_808, 916_867, 19)),
+        (Order::Fifo, (235_808, 916_867, 19)),
+        (Order::Causal, (239_642, 927_247, 19)),
+    ];
+    for (order, expected) in sizes {
+        let size = explore(broadcasts(order, &[2, 0, 0]), 0);
+        assert_eq!(size, expected, "{order:?}");
+    }
+}
+
+#[test]
+#[ignore = "takes minutes, and 5 GB of memory"]
+fn messages_of_two_robots_in_causal_order() {
+    let broadcasts = broadcasts(Order::Causal, &[1, 1, 0]);
+    assert_eq!(explore(broadcasts, 0), (81_542_639, 291_065_904, 25));
 }
