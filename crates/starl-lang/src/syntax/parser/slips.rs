@@ -70,44 +70,24 @@ pub(super) fn foreign_declaration(word: &str) -> Option<&'static str> {
     })
 }
 
+/// Words that other languages put before a variable's name, and that say nothing of its type.
+const UNTYPED: &[&str] = &[
+    "var", "local", "state", "val", "mut", "global", "public", "private", "static",
+];
+
 /// Whether a word stands before a variable's name in other languages.
 pub(super) fn is_variable_word(word: &str) -> bool {
-    matches!(
-        word,
-        "var"
-            | "local"
-            | "state"
-            | "val"
-            | "mut"
-            | "global"
-            | "public"
-            | "private"
-            | "static"
-            | "int"
-            | "float"
-            | "double"
-            | "bool"
-            | "boolean"
-            | "string"
-    ) || word.starts_with(|first: char| first.is_ascii_uppercase())
+    UNTYPED.contains(&word)
+        || matches!(
+            word,
+            "int" | "float" | "double" | "bool" | "boolean" | "string"
+        )
+        || word.starts_with(|first: char| first.is_ascii_uppercase())
 }
 
 /// Whether a word before a variable's name says nothing of its type.
 fn is_untyped(word: &str) -> bool {
-    matches!(
-        word,
-        "var"
-            | "local"
-            | "state"
-            | "val"
-            | "mut"
-            | "let"
-            | "const"
-            | "global"
-            | "public"
-            | "private"
-            | "static"
-    )
+    UNTYPED.contains(&word) || matches!(word, "let" | "const")
 }
 
 /// The type that other languages call so.
