@@ -33,8 +33,16 @@ struct Member {
 /// A state as it is compared: its row, and what is left of the bounds.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidate<'a> {
-    pub row: &'a [u32],
-    pub left: Left,
+    row: &'a [u32],
+    left: Left,
+}
+
+impl<'a> Candidate<'a> {
+    /// The state with this row; `heads` are those of the search.
+    pub fn of(row: &'a [u32], heads: &Rows) -> Candidate<'a> {
+        let left = Left::read(&heads.row(row[0])[1..]);
+        Candidate { row, left }
+    }
 }
 
 impl Covers {

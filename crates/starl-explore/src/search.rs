@@ -272,21 +272,14 @@ impl Search {
 
     /// The number of the state with the row at hand, or of one that covers it; and whether it is new.
     fn number_of_row(&mut self, from: u32, code: u32) -> (u32, bool) {
-        let (watch, left) = self.head(self.row[0]);
         let Some(covers) = &mut self.covers else {
             return self.states.insert(&self.row, &[from, code]);
         };
-        let group = covers.group(watch, &self.row, &self.actors);
         let (states, heads) = (&self.states, &self.heads);
-        let new = Candidate {
-            row: &self.row,
-            left,
-        };
-        let known = |number: u32| {
-            let row = states.row(number);
-            let left = Left::read(&heads.row(row[0])[1..]);
-            Candidate { row, left }
-        };
+        let watch = heads.row(self.row[0])[0];
+        let group = covers.group(watch, &self.row, &self.actors);
+        let new = Candidate::of(&self.row, heads);
+        let known = |number: u32| Candidate::of(states.row(number), heads);
         if let Some(known) = covers.find(group, new, &self.actors, known) {
             return (known, false);
         }
