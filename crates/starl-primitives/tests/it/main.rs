@@ -6,6 +6,7 @@ mod barrier_survives_garbage;
 mod broadcast_causal_order;
 mod broadcast_orders_memory;
 mod broadcast_orders_traffic;
+mod broadcast_total_dead_links;
 mod broadcast_total_faults;
 mod broadcast_total_long_lives;
 mod broadcast_total_order;

@@ -5,6 +5,7 @@
 //! an earlier life, from which something arrives late, was dead by then and never answers it.
 
 use super::life::Life;
+use super::relaying::Link;
 use super::roll::Roll;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -28,6 +29,8 @@ pub(super) struct Leading {
     /// Counts its calls.
     pub calls: u64,
     pub followers: BTreeMap<RobotId, Follower>,
+    /// How robots hear this one, and this one them.
+    pub links: BTreeMap<RobotId, Link>,
     /// The lives that may add messages after the last entry of the log.
     pub roll: Roll,
 }

@@ -9,7 +9,7 @@ use super::packet::{Body, Generation, Question, Said};
 use super::snapshots::Place;
 use super::{FURTHEST, Total};
 use starl_core::event::messaging::LeaveReason;
-use starl_core::{Destination, Message, Robot};
+use starl_core::{Destination, Message, Robot, RobotId};
 
 impl Total {
     /// Takes a datagram.
@@ -17,13 +17,24 @@ impl Total {
         let Some(said) = message.read::<Said>() else {
             return;
         };
+        self.note_heard(message.from);
+        match said.body {
+            Body::Relay { from, to, said } => {
+                self.pass_on(robot, message.from, from, &to, *said);
+            }
+            _ => self.hear(robot, message.from, said),
+        }
+    }
+
+    /// A robot says something, directly or by others that pass it on.
+    pub(super) fn hear(&mut self, robot: &mut Robot<'_>, from: RobotId, said: Said) {
         let Said {
             life,
             generation,
             body,
         } = said;
-        let is_peer = robot.fleet().binary_search(&message.from).is_ok();
-        if !is_peer || message.from == robot.id() {
+        let is_peer = robot.fleet().binary_search(&from).is_ok();
+        if !is_peer || from == robot.id() {
             return;
         }
         self.arm(robot);
@@ -34,10 +45,12 @@ impl Total {
             return;
         }
         let from = Life {
-            robot: message.from,
+            robot: from,
             name: life,
         };
+        self.note_signs(from.robot, &body);
         match body {
+            Body::Unheard => self.take_detour(from.robot),
             Body::Hello { bound_to, answer } => {
                 self.greeted(robot, from, generation, (bound_to, answer));
             }
@@ -207,7 +220,11 @@ impl Total {
                 }
             }
             Body::Propose { oldest, messages } => self.put_messages(robot, from, oldest, messages),
-            Body::Hello { .. } | Body::Found { .. } | Body::Snapshot { .. } => {}
+            Body::Hello { .. }
+            | Body::Found { .. }
+            | Body::Snapshot { .. }
+            | Body::Unheard
+            | Body::Relay { .. } => {}
         }
     }
 }

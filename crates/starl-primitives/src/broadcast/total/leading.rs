@@ -42,6 +42,7 @@ impl Total {
             round: 0,
             calls: 0,
             followers: BTreeMap::new(),
+            links: BTreeMap::new(),
             roll,
         });
         member.put(What::Start);
@@ -160,6 +161,7 @@ impl Total {
             return;
         }
         self.replicate(robot, true);
+        self.review_links(robot);
         if let Some(member) = &mut self.member
             && let Role::Leading(leading) = &mut member.role
         {
@@ -223,6 +225,7 @@ mod tests {
             round: 0,
             calls: 0,
             followers: BTreeMap::new(),
+            links: BTreeMap::new(),
             roll,
         });
         member

@@ -36,6 +36,7 @@ mod member;
 mod membership;
 mod packet;
 mod proposing;
+mod relaying;
 mod roll;
 mod snapshots;
 
@@ -49,6 +50,7 @@ use founding::Idle;
 use member::{Member, Role};
 use packet::{Body, Generation, Said};
 use proposing::Proposal;
+use relaying::Detour;
 use starl_core::event::BroadcastEvent;
 use starl_core::event::messaging::LeaveReason;
 use starl_core::{Destination, Duration, Input, Port, Random, Robot, TimerKey, timers};
@@ -106,6 +108,7 @@ pub(super) struct Total {
     passed: u32,
     failures: VecDeque<Failure>,
     gaps: Gaps,
+    detour: Option<Detour>,
     /// Ticks without a leader.
     silence: u32,
     is_ticking: bool,
@@ -138,6 +141,7 @@ impl Total {
             passed: 0,
             failures: VecDeque::new(),
             gaps: Gaps::default(),
+            detour: None,
             silence: 0,
             is_ticking: false,
         }
@@ -217,6 +221,7 @@ impl Total {
             }
         }
         self.propose_again(robot);
+        self.end_detour();
         self.note_contact(robot);
         self.arm(robot);
     }
@@ -265,6 +270,7 @@ impl Total {
             body,
         };
         robot.transmit(to, self.port, &said);
+        self.relay(robot, to, said);
     }
 
     fn tick(&self) -> Duration {

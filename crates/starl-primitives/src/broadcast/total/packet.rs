@@ -1,6 +1,7 @@
 //! The messages by which robots agree on an order.
 
 use super::life::{Life, LifeName};
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 use starl_core::{Payload, RobotId};
@@ -135,6 +136,14 @@ pub(super) enum Body {
         /// The voters, and the last message of each.
         roll: Vec<(Life, u32)>,
     },
+    /// What a robot says to others that may not hear it, for whoever hears this to pass on.
+    Relay {
+        from: RobotId,
+        to: Vec<RobotId>,
+        said: Box<Said>,
+    },
+    /// The leader does not hear the robots for which this is.
+    Unheard,
     /// Messages to be put into the log, in the order of their numbers.
     Propose {
         /// The number of the oldest message that still waits for its place.
