@@ -15,9 +15,9 @@ run:
 
 # Everything that continuous integration runs. The page comes before the first build of the command, which contains it.
 test: setup module-and-check page unit
-	$(MAKE) --no-print-directory --jobs=2 --output-sync $(WHOLE)
+	$(MAKE) --no-print-directory --jobs=3 --output-sync $(WHOLE)
 
-# The parts that test the whole command run two at a time, since browsers, Python and devices often wait. Each shows its
+# The parts that test the whole command run three at a time, since browsers, Python and devices often wait. Each shows its
 # output when it ends. The parts that never wait come last.
 WHOLE = python web devices wasm trace schema portable docs faults examples deny
 
@@ -34,8 +34,8 @@ check:
 	cargo clippy --locked --profile test --workspace --all-targets --all-features -- --deny warnings
 	$(VENV)/typos
 
-# Tests of emulated robots and of fleets mostly wait, so that four run on two cores.
-unit: export RUST_TEST_THREADS ?= $(shell echo $$((2 * $$(getconf _NPROCESSORS_ONLN))))
+# Tests of emulated robots and of fleets mostly wait, so that eight run on two cores.
+unit: export RUST_TEST_THREADS ?= $(shell echo $$((4 * $$(getconf _NPROCESSORS_ONLN))))
 unit:
 	cargo test --locked --workspace --features starl/zenoh
 
