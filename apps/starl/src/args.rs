@@ -16,6 +16,13 @@ fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, Failure> + Clone +
     }
 }
 
+/// How many of the scenario's robots.
+fn first_robots(text: &str) -> Result<u32, Failure> {
+    whole(1, 256)(text).map_err(|Failure(text)| {
+        Failure(format!("{text}; their models are those of the scenario"))
+    })
+}
+
 /// Distributed robot applications: write, run, test, replay and measure them.
 #[derive(Parser, Debug)]
 #[command(name = "starl", version, arg_required_else_help = true)]
@@ -607,8 +614,8 @@ pub struct ExploreArguments {
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<String>,
     /// The first N of the scenario's robots [default: 3, or all if there are fewer]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
-    pub robots: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = first_robots)]
+    pub robots: Option<u32>,
     /// Decides the robots' random draws, which are the same on all paths [default: the scenario's]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub seed: Option<String>,

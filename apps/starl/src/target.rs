@@ -228,6 +228,13 @@ pub fn no_example(name: &str, other: &str) -> Failure {
     if name.contains('/') || path.extension().is_some() {
         return unreadable(path, &FileError::Missing);
     }
+    let beside = ["toml", "starl"].map(|extension| path.with_extension(extension));
+    if let Some(file) = beside.iter().find(|file| file.exists()) {
+        return Failure(format!(
+            "{name}: there is no example called this; did you mean the file {}?",
+            file.display()
+        ));
+    }
     let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
     let help = suggest::help(name, &names, "the examples are");
     let help = help.unwrap_or_else(|| format!("`{} list` names the examples", console::command()));

@@ -95,8 +95,10 @@ pub struct Properties {
     pub election_bound: Duration,
     /// Mutex's safety, non-interference, progress and growing numbers; default true.
     pub mutex: bool,
-    /// A free resource is granted within this time; default 35 s.
+    /// One of several robots that ask for a free resource is granted it within this time; default 35 s.
     pub mutex_bound: Duration,
+    /// A robot that alone asks for a free resource is granted it within this time, the thesis's d3; default 20 s.
+    pub mutex_alone_bound: Duration,
     /// Linearizability of registers; default true.
     pub register: bool,
     /// Registration: agreement, exclusion, soundness, progress and convergence; default true.
@@ -134,6 +136,7 @@ impl Properties {
             election_bound,
             mutex: _,
             mutex_bound,
+            mutex_alone_bound,
             register: _,
             registration: _,
             registration_bound,
@@ -151,6 +154,7 @@ impl Properties {
             shared_memory_bound,
             election_bound,
             mutex_bound,
+            mutex_alone_bound,
             registration_bound,
             barrier_bound,
             failure_detector_bound,
@@ -179,6 +183,7 @@ impl Default for Properties {
             election_bound: Duration::from_seconds(35),
             mutex: true,
             mutex_bound: Duration::from_seconds(35),
+            mutex_alone_bound: Duration::from_seconds(20),
             register: true,
             registration: true,
             registration_bound: Duration::from_seconds(35),

@@ -203,7 +203,7 @@ fn a_saved_scenario_finds_the_program_of_an_example_from_anywhere() {
 fn bad_input_is_reported() {
     let folder = folder("test_bad_input");
     file(&folder, "small.toml", support::SMALL);
-    let cases: [(&[&str], &str); 4] = [
+    let cases: [(&[&str], &str); 6] = [
         (
             &["test", "nothing"],
             "there is no example or scenario file called this",
@@ -219,6 +219,14 @@ fn bad_input_is_reported() {
         (
             &["test", "small.toml", "--seeds", "0"],
             "give a whole number from 1",
+        ),
+        (
+            &["test", "small"],
+            "small: there is no example called this; did you mean the file small.toml?",
+        ),
+        (
+            &["explore", "small.toml", "--robots", "create=3"],
+            "give a whole number from 1 to 256; their models are those of the scenario",
         ),
     ];
     for (arguments, told) in cases {

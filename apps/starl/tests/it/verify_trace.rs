@@ -263,7 +263,7 @@ fn a_host_can_set_the_bounds_of_its_properties() {
     let folder = folder("verify_setting");
     let records = [acquire(2.0, 1)];
     let setting =
-        r#"{ "bodies": [], "properties": { "mutex_bound": 5000000000, "barrier": false } }"#;
+        r#"{ "bodies": [], "properties": { "mutex_alone_bound": 5000000000, "barrier": false } }"#;
     foreign(&folder.join("a.mcap"), setting, &records, 10.0);
     let bodies = r#"[{"radius":0.2,"height":0.3,"workspace":"Ground"},{"radius":0.2,"height":0.3,"workspace":"Ground"}]"#;
     let setting = setting.replace("[]", bodies);
@@ -286,7 +286,7 @@ fn a_fleet_is_judged_only_as_far_as_all_its_robots_are_recorded() {
     let bodies = r#"[{"radius":0.2,"height":0.3,"workspace":"Ground"},{"radius":0.2,"height":0.3,"workspace":"Ground"}]"#;
     let setting = |unrecorded: &str| {
         format!(
-            r#"{{ "bodies": {bodies}, "properties": {{ "mutex_bound": 5000000000 }}, "unrecorded": [{unrecorded}] }}"#
+            r#"{{ "bodies": {bodies}, "properties": {{ "mutex_alone_bound": 5000000000 }}, "unrecorded": [{unrecorded}] }}"#
         )
     };
     let verdict = |name: &str, unrecorded: &str, records: &[Record], property: &str| {

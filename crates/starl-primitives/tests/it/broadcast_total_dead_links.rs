@@ -42,7 +42,7 @@ fn all_reach_all(world: &mut World, robots: usize, first: u32, context: &str) {
 }
 
 #[test]
-fn links_that_are_dead_from_the_start_keep_nobody_out() {
+fn links_that_are_dead_from_the_start_keep_no_robot_out() {
     for robots in [3, 5] {
         for (a, b) in pairs(robots) {
             let mut world = world(robots, u64::from(a * 5 + b), Wire::perfect());
@@ -54,7 +54,7 @@ fn links_that_are_dead_from_the_start_keep_nobody_out() {
 }
 
 #[test]
-fn links_that_die_in_both_directions_cut_nobody_off() {
+fn links_that_die_in_both_directions_cut_no_robot_off() {
     for robots in [3, 5] {
         for (a, b) in pairs(robots).filter(|(a, b)| a < b) {
             let mut world = world(robots, u64::from(a * 5 + b), Wire::perfect());
@@ -68,7 +68,7 @@ fn links_that_die_in_both_directions_cut_nobody_off() {
 }
 
 #[test]
-fn many_dead_links_of_a_lossy_network_cut_nobody_off() {
+fn many_dead_links_of_a_lossy_network_cut_no_robot_off() {
     for seed in 0..10 {
         let mut random = Random::keyed(seed, &[]);
         let mut world = world(

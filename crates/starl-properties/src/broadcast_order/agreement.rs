@@ -3,7 +3,7 @@
 //!
 //! The bound starts when the message was sent, or after the last fault, whichever is later. It is judged for
 //! robots that work then and are in one part with the sender, if they are a majority. Robots that have
-//! entered the order after the message was sent, or report a gap, are not judged.
+//! entered the order after the message was sent, or report a gap, are not judged; those that never enter it are.
 
 use super::AGREEMENT;
 use crate::health::{Health, Needs};
@@ -179,7 +179,10 @@ impl Agreement {
 
         let has_been = |robot: &RobotId| {
             let joined = self.joined.get(&(key.port, *robot));
-            self.health.well_from(*robot) <= sent && joined.is_some_and(|&at| at <= sent)
+            let well_from = self.health.well_from(*robot);
+            let met = self.parts.together_since(key.from, *robot);
+            let is_late = || well_from + RECOVERY <= sent && met + RECOVERY <= sent;
+            well_from <= sent && joined.map_or_else(is_late, |&at| at <= sent)
         };
         if self.may_lack_voters(key) {
             excused.note(AGREEMENT, Excuse::NoMajority);

@@ -1,9 +1,9 @@
 //! The records of one mutex: holders and waiting robots of each resource.
 
 use super::arbiters::{Arbiters, Fleet};
-use super::{FENCING, SAFETY};
+use super::{Bounds, FENCING, SAFETY};
 use crate::{Excuse, Excused, Violation};
-use starl_core::{Duration, RobotId, Time};
+use starl_core::{RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -211,11 +211,11 @@ impl Locks {
     pub fn look(
         &mut self,
         now: Time,
-        bound: Duration,
+        bounds: Bounds,
         fleet: &Fleet<'_>,
         judged: (&mut Vec<Violation>, &mut Excused),
     ) -> Time {
-        self.look_at_requests(now, bound, fleet, judged)
+        self.look_at_requests(now, bounds, fleet, judged)
     }
 
     /// A name that is kept once.

@@ -30,10 +30,19 @@ const FENCING: &str = "mutex.fencing";
 const NON_INTERFERENCE: &str = "mutex.non_interference";
 const PROGRESS: &str = "mutex.progress";
 
+/// How long a free resource may be asked for.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    /// By one robot.
+    alone: Duration,
+    /// By several, whose requests overlap.
+    among: Duration,
+}
+
 /// Watches all mutexes.
 #[derive(Clone, Debug)]
 pub(super) struct Mutex {
-    bound: Duration,
+    bounds: Bounds,
     robots: u32,
     /// How much faster or slower than true time a clock may run, as a share.
     drift: f64,
@@ -56,14 +65,17 @@ pub(super) struct Mutex {
 
 impl Mutex {
     pub fn new(setting: &Setting) -> Mutex {
-        let bound = setting.properties.mutex_bound;
+        let bounds = Bounds {
+            alone: setting.properties.mutex_alone_bound,
+            among: setting.properties.mutex_bound,
+        };
         let robots = setting.bodies.len();
         Mutex {
-            bound,
+            bounds,
             robots: robots as u32,
             drift: setting.clock_drift,
-            health: Health::new(robots, Needs::Computing, bound),
-            parts: Parts::new(robots, bound),
+            health: Health::new(robots, Needs::Computing, bounds.among),
+            parts: Parts::new(robots, bounds.among),
             locks: BTreeMap::new(),
             doubtful_until: Time::ZERO,
             corrupted_at: Time::ZERO,
@@ -127,7 +139,7 @@ impl Mutex {
     fn corrupted(&mut self, robot: RobotId, at: Time) {
         self.pending
             .retain(Excuse::Corruption, &mut self.excused, |_| false);
-        self.doubtful_until = at + self.bound;
+        self.doubtful_until = at + self.bounds.among;
         self.corrupted_at = at;
         for locks in self.locks.values_mut() {
             locks.doubt(robot, at);
@@ -154,7 +166,7 @@ impl Mutex {
         };
         let mut next = Time::NEVER;
         for locks in self.locks.values_mut() {
-            next = next.min(locks.look(now, self.bound, &fleet, (found, &mut self.excused)));
+            next = next.min(locks.look(now, self.bounds, &fleet, (found, &mut self.excused)));
         }
         self.next_look = next;
     }

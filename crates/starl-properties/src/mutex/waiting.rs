@@ -10,9 +10,9 @@
 
 use super::arbiters::Fleet;
 use super::locks::Locks;
-use super::{NON_INTERFERENCE, PROGRESS};
+use super::{Bounds, NON_INTERFERENCE, PROGRESS};
 use crate::{Excuse, Excused, Violation, robot_list};
-use starl_core::{Duration, RobotId, Time};
+use starl_core::{RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// So often another may be granted what one waits for, as messages that cross can be ordered either way.
@@ -50,7 +50,7 @@ impl Locks {
     pub(super) fn look_at_requests(
         &mut self,
         now: Time,
-        bound: Duration,
+        bounds: Bounds,
         fleet: &Fleet<'_>,
         (found, excused): (&mut Vec<Violation>, &mut Excused),
     ) -> Time {
@@ -73,6 +73,14 @@ impl Locks {
             if is_held {
                 continue;
             }
+            let (property, bound, why) = match group.len() {
+                1 => (
+                    NON_INTERFERENCE,
+                    bounds.alone,
+                    "though no other robot holds or requests any of it",
+                ),
+                _ => (PROGRESS, bounds.among, "though no robot holds any of it"),
+            };
             let changes = group.iter().map(|robot| self.waiting[robot].changed);
             // A newcomer does not excuse earlier robots, and a robot that cannot continue does not excuse those
             // that can.
@@ -90,10 +98,6 @@ impl Locks {
                 } else if let Some(waiting) = self.waiting.get_mut(&first)
                     && waiting.excused.replace(changed) != Some(changed)
                 {
-                    let property = match group.len() {
-                        1 => NON_INTERFERENCE,
-                        _ => PROGRESS,
-                    };
                     excused.note(property, well[&first].1);
                 }
                 continue;
@@ -104,13 +108,6 @@ impl Locks {
             if late.is_empty() || late.iter().any(is_reported) {
                 continue;
             }
-            let (property, why) = match group.len() {
-                1 => (
-                    NON_INTERFERENCE,
-                    "though no other robot holds or requests any of it",
-                ),
-                _ => (PROGRESS, "though no robot holds any of it"),
-            };
             found.push(Violation {
                 property: property.into(),
                 at: due,

@@ -337,6 +337,27 @@ fn robots_that_are_down_or_apart_or_joined_later_are_not_judged() {
 }
 
 #[test]
+fn a_robot_is_let_in_within_half_a_minute() {
+    let sent_at = |millis: u64| {
+        let mut story = story();
+        (0..2).for_each(|robot| enters(&mut story, 500, robot));
+        sends(&mut story, millis, 0, 1, "total");
+        (0..2).for_each(|robot| handed(&mut story, millis + 100, robot, (0, 1)));
+        story
+    };
+    assert_none(&sent_at(29_000).verdict(90_000));
+    assert_only(
+        &sent_at(31_000).verdict(90_000),
+        "broadcast.agreement",
+        36_000,
+        &[0, 2],
+    );
+    let mut entered = sent_at(31_000);
+    joins(&mut entered, 35_000, 2);
+    assert_none(&entered.verdict(90_000));
+}
+
+#[test]
 fn after_a_fault_there_is_more_time() {
     let mut story = left_out();
     story.fault(2050, Some(1), "stuck motor");

@@ -8,6 +8,7 @@ fn story() -> Story {
     let mut story = Story::of_ground_robots(3);
     story.setting.properties.broadcast_bound = seconds(5);
     story.setting.properties.mutex_bound = seconds(5);
+    story.setting.properties.mutex_alone_bound = seconds(5);
     story.setting.properties.barrier_bound = seconds(5);
     story.setting.properties.progress_bound = seconds(5);
     story

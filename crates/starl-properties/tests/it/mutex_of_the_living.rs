@@ -13,6 +13,7 @@ const FENCING: &str = "mutex.fencing";
 fn story(needed: i64) -> Story {
     let mut story = Story::of_ground_robots(5);
     story.setting.properties.mutex_bound = seconds(5);
+    story.setting.properties.mutex_alone_bound = seconds(5);
     for robot in 0..5 {
         ready(&mut story, 500, robot, needed, false);
     }

@@ -11,6 +11,7 @@ const PROGRESS: &str = "mutex.progress";
 fn story() -> Story {
     let mut story = Story::of_ground_robots(3);
     story.setting.properties.mutex_bound = seconds(5);
+    story.setting.properties.mutex_alone_bound = seconds(5);
     story
 }
 
@@ -30,6 +31,17 @@ fn a_request_without_overlap_is_granted_in_time() {
     late.locks(6000, 0, "enter", "a")
         .locks(6000, 0, "enter", "b");
     assert_none(&late.verdict(20_000));
+}
+
+#[test]
+fn a_robot_that_asks_alone_has_a_bound_of_its_own() {
+    let mut alone = story();
+    alone.setting.properties.mutex_alone_bound = seconds(2);
+    alone.locks(1000, 0, "acquire", "a");
+    let mut both = alone.clone();
+    assert_only(&alone.verdict(20_000), NON_INTERFERENCE, 3000, &[0]);
+    both.locks(1500, 1, "acquire", "a");
+    assert_only(&both.verdict(20_000), PROGRESS, 6000, &[0]);
 }
 
 #[test]

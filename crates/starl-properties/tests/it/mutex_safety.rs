@@ -59,6 +59,7 @@ fn a_crash_ends_the_holds_of_a_robot() {
 fn after_a_corruption_of_state_it_is_judged_again_later() {
     let mut story = story();
     story.setting.properties.mutex_bound = seconds(5);
+    story.setting.properties.mutex_alone_bound = seconds(5);
     story
         .locks(1000, 0, "enter", "a")
         .fault(2000, Some(2), "corrupt state");

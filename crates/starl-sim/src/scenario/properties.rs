@@ -35,8 +35,10 @@ field_table! {
         election_bound: Duration = SPAN, Value("35s");
         /// Safety, non-interference and progress of Mutex, and that its numbers grow.
         mutex: bool = Kind::Flag, Value("true");
-        /// Within this time a free resource is granted.
+        /// Within this time one of several robots that ask for a free resource is granted it.
         mutex_bound: Duration = SPAN, Value("35s");
+        /// Within this time a robot that alone asks for a free resource is granted it. Longer than a lease.
+        mutex_alone_bound: Duration = SPAN, Value("20s");
         /// Linearizability of registers.
         register: bool = Kind::Flag, Value("true");
         /// The guarantees of registrations.

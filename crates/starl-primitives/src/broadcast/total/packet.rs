@@ -136,7 +136,7 @@ pub(super) enum Body {
         /// The voters, and the last message of each.
         roll: Vec<(Life, u32)>,
     },
-    /// What a robot says to others that may not hear it, for whoever hears this to pass on.
+    /// A message to robots that may not hear its sender: all that hear this pass it on.
     Relay {
         from: RobotId,
         to: Vec<RobotId>,

@@ -1,9 +1,9 @@
 //! A way around links that are dead, in one direction or both.
 //!
-//! The leader reviews every few ticks how it and the other robots hear each other. What it says to a robot that asks for
-//! a leader all the time although the leader hears it, it says to all the others as well, and some of them pass it on.
-//! Robots of which the leader hears nothing are told so in the same way. For a while what they say to the leader is
-//! passed on too.
+//! The leader reviews every few ticks how it and the other robots hear each other. A robot that asks for a leader all the
+//! time, although the leader hears it, does not hear the leader: the messages of the leader to it also go to the
+//! others, and some of them pass it on. Robots that the leader does not hear receive a message about it in the same way.
+//! For a while their messages to the leader are passed on too.
 //!
 //! A datagram may arrive late and more than once in any case, so a receiver treats one that was passed on as if it came
 //! directly. Only a leader and its members are connected like this: elections have a majority to choose from.
@@ -42,16 +42,12 @@ pub(super) struct Link {
 
 impl Link {
     fn review(&mut self) {
-        let is_deaf = self.asks && !self.answers;
-        *self = Link {
-            is_unheard: !self.is_heard,
-            deaf_for: if is_deaf {
-                LONG
-            } else {
-                self.deaf_for.saturating_sub(1)
-            },
-            ..Link::default()
+        self.is_unheard = !self.is_heard;
+        self.deaf_for = match self.asks && !self.answers {
+            true => LONG,
+            false => self.deaf_for.saturating_sub(1),
         };
+        (self.is_heard, self.asks, self.answers) = (false, false, false);
     }
 }
 
@@ -88,7 +84,7 @@ impl Total {
         }
     }
 
-    /// A leader's tick: it is time to see who hears whom.
+    /// A leader's tick: it is time to review the links.
     pub(super) fn review_links(&mut self, robot: &mut Robot<'_>) {
         let Some(member) = &mut self.member else {
             return;
@@ -136,7 +132,7 @@ impl Total {
         }
     }
 
-    /// Has what was said passed on to those for whom it is and who may not have heard it.
+    /// Has a message passed on to its receivers that may not have heard it.
     pub(super) fn relay(&mut self, robot: &mut Robot<'_>, to: Destination, said: Said) {
         let mut missed = Vec::new();
         if let Some(detour) = &self.detour {
