@@ -18,9 +18,8 @@ fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, Failure> + Clone +
 
 /// How many of the scenario's robots.
 fn first_robots(text: &str) -> Result<u32, Failure> {
-    whole(1, 256)(text).map_err(|Failure(text)| {
-        Failure(format!("{text}; their models are those of the scenario"))
-    })
+    whole(1, 256)(text)
+        .map_err(|Failure(text)| Failure(format!("{text}; their models are those of the scenario")))
 }
 
 /// Distributed robot applications: write, run, test, replay and measure them.

@@ -91,7 +91,7 @@ fn other_programs_are_rejected_with_a_reason() {
         (&["explain", "own.starl"], "a library has no state machine"),
         (
             &["explain", "door.starl", "--variable", "waited"],
-            "there is no variable `waited` of an enum type; there are: role, state",
+            "there is no variable `waited` of an enum type or of type Bool; there are: role, state",
         ),
         (
             &["explain", "missing.starl"],

@@ -7,14 +7,14 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::vec::Vec;
 
-use super::feasible::{enum_variables, truth};
+use super::feasible::{finite_variables, truth};
 use super::scope::Entity;
 use super::state::Checker;
 use super::transitions::{Given, Transitions, first_values};
 use crate::diagnostic::{Code, Diagnostic, has_errors};
 use crate::ir::*;
 
-/// The uses of the program's enum variables.
+/// The uses of the program's Bools and variables of enums.
 struct Control {
     /// By action.
     actions: Vec<Transitions>,
@@ -57,7 +57,7 @@ impl Checker {
             return Some(problem());
         }
         let mut variables = BTreeSet::new();
-        enum_variables(&action.guard, &mut variables);
+        finite_variables(&action.guard, &mut variables);
         for variable in variables {
             let Some(entered) = control.entered.get(&variable) else {
                 continue;

@@ -1,16 +1,22 @@
-//! Whether a condition can hold, judged from the program's text and the value of one enum variable.
+//! Whether a condition can hold, judged from the program's text and the value of one variable: a Bool, or of an enum.
 
 use alloc::collections::BTreeSet;
 
 use crate::ir::{Expression, ExpressionKind, Operator, Type, VariableId};
 
-/// An assumption: the value of an enum variable.
+/// An assumption: the value of a variable, as the number of an enum's variant, or 0 for false and 1 for true.
 pub(crate) type Assumption = Option<(VariableId, u16)>;
+
+/// Whether a type has such values.
+pub(crate) fn is_finite(ty: &Type) -> bool {
+    matches!(ty, Type::Enum(_) | Type::Bool)
+}
 
 /// Whether the condition holds; none if that depends on more than the assumption.
 pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool> {
     match &condition.kind {
         ExpressionKind::Bool(value) => Some(*value),
+        ExpressionKind::Variable(id) => value_of(*id, assumed).map(|value| value == 1),
         ExpressionKind::Not(inner) => truth(inner, assumed).map(|value| !value),
         ExpressionKind::Binary {
             operator,
@@ -27,20 +33,20 @@ pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool>
                 (Some(false), Some(false)) => Some(false),
                 _ => None,
             },
-            Operator::Equal => Some(variant(left, assumed)? == variant(right, assumed)?),
-            Operator::NotEqual => Some(variant(left, assumed)? != variant(right, assumed)?),
+            Operator::Equal => Some(value(left, assumed)? == value(right, assumed)?),
+            Operator::NotEqual => Some(value(left, assumed)? != value(right, assumed)?),
             _ => None,
         },
         ExpressionKind::In { item, collection } => {
-            let value = variant(item, assumed)?;
+            let own = value(item, assumed)?;
             let (ExpressionKind::List(elements) | ExpressionKind::Set(elements)) = &collection.kind
             else {
                 return None;
             };
             let mut is_open = false;
             for element in elements {
-                match variant(element, assumed) {
-                    Some(other) if other == value => return Some(true),
+                match value(element, assumed) {
+                    Some(other) if other == own => return Some(true),
                     Some(_) => {}
                     None => is_open = true,
                 }
@@ -51,30 +57,33 @@ pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool>
     }
 }
 
-/// Which variant an expression of an enum is, if that can be determined.
-fn variant(expression: &Expression, assumed: Assumption) -> Option<u16> {
-    if !matches!(expression.ty, Type::Enum(_)) {
-        return None;
-    }
-    match expression.kind {
-        ExpressionKind::Variant(number) => Some(number),
-        ExpressionKind::Variable(id) => assumed.filter(|(of, _)| *of == id).map(|(_, value)| value),
+/// The value of an expression, if it can be determined.
+fn value(expression: &Expression, assumed: Assumption) -> Option<u16> {
+    match (&expression.ty, &expression.kind) {
+        (Type::Enum(_), ExpressionKind::Variant(number)) => Some(*number),
+        (Type::Enum(_), ExpressionKind::Variable(id)) => value_of(*id, assumed),
+        (Type::Bool, _) => truth(expression, assumed).map(u16::from),
         _ => None,
     }
 }
 
-/// The enum variables that the condition compares with something.
-pub(crate) fn enum_variables(condition: &Expression, found: &mut BTreeSet<VariableId>) {
+fn value_of(variable: VariableId, assumed: Assumption) -> Option<u16> {
+    let (of, value) = assumed?;
+    (of == variable).then_some(value)
+}
+
+/// The variables with such values by which the condition decides.
+pub(crate) fn finite_variables(condition: &Expression, found: &mut BTreeSet<VariableId>) {
     match &condition.kind {
-        ExpressionKind::Variable(id) if matches!(condition.ty, Type::Enum(_)) => {
+        ExpressionKind::Variable(id) if is_finite(&condition.ty) => {
             found.insert(*id);
         }
-        ExpressionKind::Not(inner) => enum_variables(inner, found),
+        ExpressionKind::Not(inner) => finite_variables(inner, found),
         ExpressionKind::Binary { left, right, .. } => {
-            enum_variables(left, found);
-            enum_variables(right, found);
+            finite_variables(left, found);
+            finite_variables(right, found);
         }
-        ExpressionKind::In { item, .. } => enum_variables(item, found),
+        ExpressionKind::In { item, .. } => finite_variables(item, found),
         _ => {}
     }
 }

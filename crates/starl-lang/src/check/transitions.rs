@@ -1,18 +1,18 @@
-//! The effect of statements on enum variables: the values that each may have afterwards, where they are known.
+//! The effect of statements on Bools and variables of enums: the values that each may have afterwards, where they are known.
 //!
 //! All paths through the statements count, except branches whose condition contradicts the value assumed at the start
 //! or the values assigned before. Inside loops no value is assumed, because a statement may run after a later one.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
-use super::feasible::{Assumption, truth};
+use super::feasible::{Assumption, is_finite, truth};
 use super::tables::Builtin;
 use crate::ir::*;
 
 /// The effect of some statements.
 #[derive(Default)]
 pub(crate) struct Transitions {
-    /// The values given to the enum variables that they write.
+    /// The values given to the variables that they write.
     pub given: BTreeMap<VariableId, Given>,
     /// They may say that the program is at its end, has failed, or that the robot is to stop.
     pub ends: bool,
@@ -85,7 +85,8 @@ impl Walk<'_> {
     fn statement(&mut self, statement: &Statement, mut ways: Ways) -> Option<Ways> {
         match &statement.kind {
             StatementKind::Assign { place, value } => {
-                if let (Root::Variable(id), Type::Enum(_)) = (&place.root, &value.ty)
+                if let Root::Variable(id) = &place.root
+                    && is_finite(&value.ty)
                     && place.path.is_empty()
                 {
                     let given = self.value(value, &ways);
@@ -219,6 +220,10 @@ impl Walk<'_> {
                     self.collect(otherwise, ways, given);
                 }
             }
+            _ if value.ty == Type::Bool => match self.truth(value, ways) {
+                Some(truth) => given.values.extend([u16::from(truth)]),
+                None => given.values.extend([0, 1]),
+            },
             _ => given.is_open = true,
         }
     }
@@ -259,7 +264,7 @@ fn joined(mut some: Ways, others: Ways) -> Ways {
     some
 }
 
-/// The first values of the enum variables; the scenario may give any role.
+/// The first values of Bools and variables of enums; the scenario may give any role.
 pub(crate) fn first_values(program: &Program) -> BTreeMap<VariableId, Given> {
     let mut first: BTreeMap<VariableId, Given> = BTreeMap::new();
     let walk = Walk {
@@ -271,15 +276,15 @@ pub(crate) fn first_values(program: &Program) -> BTreeMap<VariableId, Given> {
         done: Transitions::default(),
     };
     for (number, variable) in program.variables.iter().enumerate() {
-        let Type::Enum(id) = variable.ty else {
+        if !is_finite(&variable.ty) {
             continue;
-        };
+        }
         let own = VariableId(number as u32);
         let is_role = (program.roles.as_ref()).is_some_and(|roles| roles.variable == own);
         let given = match &variable.initial {
             Some(value) => walk.value(value, &Ways::new()),
             None if is_role => Given {
-                values: (0..program[id].variants.len() as u16).collect(),
+                values: (0..program.values_of(own).len() as u16).collect(),
                 ..Given::default()
             },
             None => Given {

@@ -4,15 +4,16 @@ use alloc::collections::BTreeSet;
 use alloc::string::ToString;
 
 use super::Refusal;
-use crate::check::feasible::enum_variables;
+use crate::check::feasible::{finite_variables, is_finite};
 use crate::check::transitions::Transitions;
 use crate::ir::{Program, Type, VariableId};
 
-/// The variable with this name; without a name the enum variable that the most guards decide by, of
-/// equal ones the one that the most actions write, then the first. The variable `role` is the last choice.
+/// The variable with this name, of an enum or a Bool; without a name the one of an enum that the most guards decide by,
+/// of equal ones the one that the most actions write, then the first. The variable `role` is the last choice of those,
+/// and a Bool is chosen only where there is no enum.
 pub(super) fn variable(program: &Program, name: Option<&str>) -> Result<VariableId, Refusal> {
-    let candidates = (program.variables.iter().enumerate())
-        .filter(|(_, variable)| matches!(variable.ty, Type::Enum(_)));
+    let candidates =
+        (program.variables.iter().enumerate()).filter(|(_, variable)| is_finite(&variable.ty));
     if let Some(name) = name {
         let mut named = candidates.clone();
         return match named.find(|(_, variable)| variable.name == name) {
@@ -30,13 +31,14 @@ pub(super) fn variable(program: &Program, name: Option<&str>) -> Result<Variable
     let weight = |id: VariableId| {
         let deciding = (program.actions.iter()).filter(|action| {
             let mut named = BTreeSet::new();
-            enum_variables(&action.guard, &mut named);
+            finite_variables(&action.guard, &mut named);
             named.contains(&id)
         });
         let writing = written
             .iter()
             .filter(|transitions| transitions.given.contains_key(&id));
-        (Some(id) != role, deciding.count(), writing.count())
+        let is_enum = program[id].ty != Type::Bool;
+        (is_enum, Some(id) != role, deciding.count(), writing.count())
     };
     candidates
         .map(|(number, _)| VariableId(number as u32))

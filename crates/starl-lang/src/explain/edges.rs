@@ -5,7 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::{Cause, Edge, Target};
-use crate::check::feasible::{enum_variables, truth};
+use crate::check::feasible::{finite_variables, truth};
 use crate::check::transitions::{Given, Transitions, first_values};
 use crate::ir::{Action, Event, Handler, Procedure, Program, VariableId};
 
@@ -108,7 +108,7 @@ fn steps(program: &Program, variable: VariableId, state: usize, edges: &mut Vec<
             continue;
         }
         let mut named = BTreeSet::new();
-        enum_variables(&action.guard, &mut named);
+        finite_variables(&action.guard, &mut named);
         let step = Step {
             state,
             cause: action_cause(program, action),

@@ -1,4 +1,4 @@
-//! The state machine that a program is: the values of its control variable, an enum, as states, and
+//! The state machine that a program is: the values of its control variable, of an enum or a Bool, as states, and
 //! its actions and handlers as edges between them.
 //!
 //! An edge from one state to another means that an action's guard can hold in the first and that a path through its
@@ -16,7 +16,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::ir::{Program, Type};
+use crate::ir::Program;
 
 /// The state machine of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub struct StateMachine {
     pub program: String,
     /// The control variable's name.
     pub variable: String,
-    /// The values of the variable, in the order in which the enum declares them.
+    /// The values of the variable, in the order in which the enum declares them, or false and true.
     pub states: Vec<State>,
     /// The edges between states, by start, then end, then in the order of the program.
     pub edges: Vec<Edge>,
@@ -34,7 +34,7 @@ pub struct StateMachine {
 /// A value of the control variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct State {
-    /// The variant's name.
+    /// The value's name.
     pub name: String,
     /// Whether a robot may start in it.
     pub is_initial: bool,
@@ -82,9 +82,9 @@ pub struct Cause {
 pub enum Refusal {
     /// A library has no state.
     Library,
-    /// No variable of the program is an enum.
+    /// No variable of the program is of an enum or a Bool.
     NoControlVariable,
-    /// There is no variable of this name that is an enum.
+    /// There is no such variable of this name.
     UnknownVariable {
         /// The name that was given.
         name: String,
@@ -102,18 +102,15 @@ impl StateMachine {
         }
         let id = choose::variable(program, variable)?;
         let declared = &program[id];
-        let Type::Enum(of) = declared.ty else {
-            return Err(Refusal::NoControlVariable);
-        };
-        let variants = &program[of].variants;
-        let initial = edges::initial(program, id, variants.len());
-        let (reached, edges) = edges::reachable(program, id, &initial, variants.len());
+        let names = program.values_of(id);
+        let initial = edges::initial(program, id, names.len());
+        let (reached, edges) = edges::reachable(program, id, &initial, names.len());
         let left: BTreeSet<usize> = (edges.iter())
             .filter(|edge| edge.to != Target::State(edge.from))
             .map(|edge| edge.from)
             .collect();
-        let states = variants.iter().enumerate().map(|(number, variant)| State {
-            name: variant.name.clone(),
+        let states = names.into_iter().enumerate().map(|(number, name)| State {
+            name: name.into(),
             is_initial: initial.contains(&number),
             is_reached: reached.contains(&number),
             is_left: left.contains(&number),
@@ -156,10 +153,10 @@ impl fmt::Display for Refusal {
         match self {
             Self::Library => formatter.write_str("a library has no state machine"),
             Self::NoControlVariable => formatter.write_str(
-                "the program has no variable of an enum type, so there are no states to show",
+                "the program has no variable of an enum type and no Bool, so there are no states to show",
             ),
             Self::UnknownVariable { name, others } => {
-                write!(formatter, "there is no variable `{name}` of an enum type")?;
+                write!(formatter, "there is no variable `{name}` of an enum type or of type Bool")?;
                 match others.as_slice() {
                     [] => formatter.write_str("; the program has none"),
                     _ => write!(formatter, "; there are: {}", others.join(", ")),

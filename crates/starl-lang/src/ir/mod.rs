@@ -90,6 +90,17 @@ impl Program {
         display::type_name(self, of)
     }
 
+    /// The names of the values of a variable: the variants of its enum, or false and true; of any other type none.
+    pub(crate) fn values_of(&self, variable: VariableId) -> Vec<&str> {
+        match self[variable].ty {
+            Type::Enum(of) => (self[of].variants.iter())
+                .map(|variant| variant.name.as_str())
+                .collect(),
+            Type::Bool => Vec::from(["false", "true"]),
+            _ => Vec::new(),
+        }
+    }
+
     /// The name of a message between robots, with the name of its library, so that messages of two libraries are not
     /// confused.
     #[must_use]

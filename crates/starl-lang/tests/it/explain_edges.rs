@@ -45,6 +45,22 @@ fn an_action_that_does_not_ask_for_the_state_leaves_every_state() {
 }
 
 #[test]
+fn a_bool_has_states_where_no_enum_has() {
+    let text = "program P\nradio = Broadcast()\nmessage Go()\nis_done: Bool = false\nis_late: Bool = false\nhurry()\n    pre not is_done and not is_late\n    eff is_late = true\ngo()\n    pre not is_done\n    eff is_done = is_late; radio.broadcast(Go())\non Go(_)\n    is_done = not is_done\n";
+    let expected = [
+        "-> false",
+        "false -> false: hurry",
+        "false -> false: go",
+        "false -> true: go",
+        "false -> true: on Go",
+        "true -> false: on Go",
+    ];
+    assert_eq!(steps(text), expected);
+    let late = machine(text, Some("is_late"));
+    assert_eq!(lines(&late), ["-> false", "false -> true: hurry"]);
+}
+
+#[test]
 fn a_handler_that_asks_for_the_state_leaves_that_state_alone() {
     let text = "program P\nmessage Go()\nradio = Broadcast()\nloc: enum {a, b, c} = a\nsend()\n    pre loc == b\n    eff radio.broadcast(Go()); loc = c\non Go(_)\n    if loc == a\n        loc = b\n    elif loc == c\n        loc = a\n";
     let expected = ["-> a", "a -> b: on Go", "b -> c: send", "c -> a: on Go"];

@@ -88,7 +88,7 @@ fn formation_waits_in_rounds_as_in_figure_5_5() {
 
 #[test]
 fn a_program_without_states_is_refused() {
-    let refused = machine(listing("mutex_usage"), None);
+    let refused = machine("program Plain\n\nn: Int = 0\n", None);
     assert_eq!(refused, Err(Refusal::NoControlVariable));
     let refused = machine("library own\n", None);
     assert_eq!(refused, Err(Refusal::Library));

@@ -61,6 +61,17 @@ pub(super) fn property(parser: &mut Parser<'_>) {
     if is_always {
         parser.bump();
     }
+    if parser.at_word("within") && parser.nth(1) != Colon {
+        let from = parser.span();
+        parser.bump();
+        expression::expression(parser);
+        let span = from.to(Span::empty(parser.end_of_last()));
+        let deadline = span.of(parser.text);
+        let message = "a property ends with its deadline";
+        let problem = Diagnostic::new(Code::Unexpected, span, message);
+        let form = alloc::format!("write `eventually: condition {deadline}`");
+        parser.report(problem.note(form));
+    }
     let begins = parser.end_of_last();
     let named = parser.nth(1) == Colon && (parser.at(Identifier) || parser.current().is_keyword());
     if named || is_name(parser) {
