@@ -18,8 +18,8 @@ test: setup module-and-check page unit
 	$(MAKE) --no-print-directory --jobs=3 --output-sync $(WHOLE)
 
 # The parts that test the whole command run three at a time, since browsers, Python and devices often wait. Each shows its
-# output when it ends. The parts that never wait come last.
-WHOLE = python web devices wasm trace schema portable docs faults examples deny
+# output when it ends. The parts that never wait come last; `docs` keeps others from building, so it comes after `python`.
+WHOLE = python web devices wasm trace schema portable faults examples docs deny
 
 # One core links the page's module, and clippy uses the other.
 module-and-check: setup

@@ -68,6 +68,11 @@ impl<'a> Robot<'a> {
         self.view.fleet
     }
 
+    /// Whether this is another robot of the application.
+    pub fn is_peer(&self, robot: RobotId) -> bool {
+        robot != self.view.id && self.view.fleet.binary_search(&robot).is_ok()
+    }
+
     /// The other robots of the application.
     pub fn peers(&self) -> impl Iterator<Item = RobotId> + use<'a> {
         let id = self.view.id;

@@ -19,7 +19,7 @@ use starl_core::{Message, Robot, RobotId};
 impl Barrier {
     pub(super) fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
         let from = message.from;
-        let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();
+        let is_peer = robot.is_peer(from);
         let Some(said) = message.read::<Packet>().filter(|_| is_peer) else {
             return;
         };

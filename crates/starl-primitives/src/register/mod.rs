@@ -279,7 +279,7 @@ impl Register {
     /// Handles a datagram. Unknown datagrams are ignored.
     fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
         let from = message.from;
-        let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();
+        let is_peer = robot.is_peer(from);
         let Some(datagram) = message.read::<Datagram>().filter(|_| is_peer) else {
             return;
         };

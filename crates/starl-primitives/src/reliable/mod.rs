@@ -160,9 +160,7 @@ impl Reliable {
     #[must_use]
     pub fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) -> Notices {
         match input {
-            Input::Message(message)
-                if message.port == self.port && is_peer(robot, message.from) =>
-            {
+            Input::Message(message) if message.port == self.port && robot.is_peer(message.from) => {
                 let Some(packet) = message.read() else {
                     return Notices::new();
                 };
@@ -244,11 +242,6 @@ impl Reliable {
             Some(to) => self.direct.entry(to).or_default(),
         }
     }
-}
-
-/// Whether this is another robot of the application.
-fn is_peer(robot: &Robot<'_>, id: RobotId) -> bool {
-    id != robot.id() && robot.fleet().binary_search(&id).is_ok()
 }
 
 /// Encodes the content of a message.

@@ -16,7 +16,7 @@ impl SharedMemory {
     /// Handles a datagram. Unknown datagrams are ignored.
     pub(super) fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
         let from = message.from;
-        let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();
+        let is_peer = robot.is_peer(from);
         let Some(datagram) = message.read::<Datagram<Content>>() else {
             return;
         };

@@ -17,6 +17,9 @@ impl Total {
         let Some(said) = message.read::<Said>() else {
             return;
         };
+        if !robot.is_peer(message.from) {
+            return;
+        }
         self.note_heard(message.from);
         match said.body {
             Body::Relay { from, to, said } => {
@@ -33,8 +36,7 @@ impl Total {
             generation,
             body,
         } = said;
-        let is_peer = robot.fleet().binary_search(&from).is_ok();
-        if !is_peer || from == robot.id() {
+        if !robot.is_peer(from) {
             return;
         }
         self.arm(robot);

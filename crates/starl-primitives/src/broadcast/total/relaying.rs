@@ -179,9 +179,7 @@ impl Total {
         let me = robot.id();
         let fleet = robot.fleet().len() as u32;
         if sender == from && robot.random().below(fleet.max(1)) < RELAYS {
-            let is_other = |to: &&RobotId| {
-                **to != me && **to != from && robot.fleet().binary_search(to).is_ok()
-            };
+            let is_other = |to: &&RobotId| **to != from && robot.is_peer(**to);
             let others: Vec<RobotId> = to.iter().filter(is_other).copied().collect();
             for other in others {
                 let relay = Said {
