@@ -85,14 +85,16 @@ wheel: setup viewer
 
 # The package for Python as its users get it: the wheel in an environment of its own.
 PYTHON_TESTS = $(CARGO_TARGET_DIR)/python-tests
+PYTHON_NEEDS = apps/starl-py/tests/requirements.txt apps/starl-py/pyproject.toml
+PYTHON_INSTALL = $(PYTHON_TESTS)/bin/pip install --quiet --disable-pip-version-check
 # It is built in the profile of the tests, so with overflow checks and assertions, and of the crates that they have built.
 python: WHEEL_PROFILE = test
 python: WHEEL_ENVIRONMENT = CARGO=$(abspath tools/workspace_cargo.sh)
 python: wheel $(STARL)
-	rm -rf $(PYTHON_TESTS)
-	python3 -m venv $(PYTHON_TESTS)
-	$(PYTHON_TESTS)/bin/pip install --quiet --disable-pip-version-check $(CARGO_TARGET_DIR)/wheels/starl-*.whl \
-		-r apps/starl-py/tests/requirements.txt
+	cat $(PYTHON_NEEDS) | cmp -s - $(PYTHON_TESTS)/needs || { rm -rf $(PYTHON_TESTS) && python3 -m venv $(PYTHON_TESTS) && \
+		$(PYTHON_INSTALL) $(CARGO_TARGET_DIR)/wheels/starl-*.whl -r $(firstword $(PYTHON_NEEDS)) && \
+		cat $(PYTHON_NEEDS) >$(PYTHON_TESTS)/needs; }
+	$(PYTHON_INSTALL) --force-reinstall --no-deps $(CARGO_TARGET_DIR)/wheels/starl-*.whl
 	cd apps/starl-py && $(abspath $(PYTHON_TESTS))/bin/mypy --strict python/starl tests
 	cd apps/starl-py && STARL=$(abspath $(STARL)) $(abspath $(PYTHON_TESTS))/bin/python -m pytest -q tests
 
