@@ -30,9 +30,8 @@ impl EmulatedVrpn {
     /// # Errors
     /// If the address is in use or not this machine's.
     pub fn start(world: World, address: SocketAddr) -> io::Result<EmulatedVrpn> {
-        let listener = TcpListener::bind(address)?;
+        let (listener, requests) = bind(address)?;
         let address = listener.local_addr()?;
-        let requests = UdpSocket::bind(address)?;
         listener.set_nonblocking(true)?;
         requests.set_nonblocking(true)?;
         let mut server = Server {
@@ -54,6 +53,22 @@ impl EmulatedVrpn {
     /// Where it takes connections.
     pub fn address(&self) -> SocketAddr {
         self.address
+    }
+}
+
+/// Both sockets at one port. A port that is free for TCP may be in use for UDP; then another one is taken, if any will do.
+fn bind(address: SocketAddr) -> io::Result<(TcpListener, UdpSocket)> {
+    let mut tries = if address.port() == 0 { 20 } else { 1 };
+    loop {
+        tries -= 1;
+        let listener = TcpListener::bind(address)?;
+        match UdpSocket::bind(listener.local_addr()?) {
+            Ok(requests) => return Ok((listener, requests)),
+            Err(error) if tries == 0 || error.kind() != io::ErrorKind::AddrInUse => {
+                return Err(error);
+            }
+            Err(_) => {}
+        }
     }
 }
 
