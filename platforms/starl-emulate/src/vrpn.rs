@@ -64,7 +64,7 @@ fn bind(address: SocketAddr) -> io::Result<(TcpListener, UdpSocket)> {
         let listener = TcpListener::bind(address)?;
         match UdpSocket::bind(listener.local_addr()?) {
             Ok(requests) => return Ok((listener, requests)),
-            Err(error) if tries == 0 || error.kind() != io::ErrorKind::AddrInUse => {
+            Err(error) if tries == 0 || error.kind() != ErrorKind::AddrInUse => {
                 return Err(error);
             }
             Err(_) => {}

@@ -263,12 +263,17 @@ impl Total {
         self.ask_number = random.bits();
     }
 
-    fn say(&mut self, robot: &mut Robot<'_>, to: Destination, body: Body) {
-        let said = Said {
+    /// A datagram of this robot with this content.
+    fn said(&mut self, robot: &mut Robot<'_>, body: Body) -> Said {
+        Said {
             life: self.life(robot).name,
             generation: self.member.as_ref().map(|member| member.generation),
             body,
-        };
+        }
+    }
+
+    fn say(&mut self, robot: &mut Robot<'_>, to: Destination, body: Body) {
+        let said = self.said(robot, body);
         robot.transmit(to, self.port, &said);
         self.relay(robot, to, said);
     }

@@ -105,11 +105,7 @@ impl Total {
             }
         }
         if !unheard.is_empty() {
-            let said = Said {
-                life: self.life(robot).name,
-                generation: self.member.as_ref().map(|member| member.generation),
-                body: Body::Unheard,
-            };
+            let said = self.said(robot, Body::Unheard);
             self.ask_to_pass_on(robot, unheard, said);
         }
     }
