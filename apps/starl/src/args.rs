@@ -663,6 +663,9 @@ pub struct ExploreArguments {
     /// Maximum number of steps from the start; exit status 3 if there are more
     #[arg(long, value_name = "N")]
     pub depth: Option<u32>,
+    /// Threads to search on; the result is the same for any number [default: all cores]
+    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
+    pub threads: Option<u32>,
     /// Maximum number of states, some 40 bytes each; exit status 3 if there are more
     #[arg(long, value_name = "N", default_value_t = 10_000_000)]
     pub most_states: u32,

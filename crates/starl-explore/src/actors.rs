@@ -10,6 +10,9 @@ use crate::code::{Code, Flying};
 use crate::robots::Outcome;
 use crate::table::{Rows, Table};
 
+/// Where the actors begin in the row of a state: its head stands before them.
+pub(crate) const HEAD: usize = 1;
+
 /// All actors that were seen.
 #[derive(Clone)]
 pub(crate) struct Actors {
@@ -18,8 +21,6 @@ pub(crate) struct Actors {
     rows: Rows,
     /// Datagrams in ascending order, as [`Flying`].
     mailboxes: Table,
-    /// By actor: a bit for each datagram in its mailbox; several may share one.
-    marks: Vec<u32>,
     /// By actor; only the requested ones.
     pub prospects: Vec<Option<Prospects>>,
     pub moves: Vec<Move>,
@@ -57,7 +58,6 @@ impl Actors {
             bounds,
             rows: Rows::new(2, 0),
             mailboxes: Table::default(),
-            marks: Vec::new(),
             prospects: Vec::new(),
             moves: Vec::new(),
             posted: Rows::new(2, 0),
@@ -71,10 +71,6 @@ impl Actors {
         let (number, is_new) = self.rows.insert(&[local, number_of_mailbox], &[]);
         if is_new {
             self.prospects.push(None);
-            let marks = mailbox
-                .iter()
-                .map(|&word| 1 << (Flying(word).number() % 32));
-            self.marks.push(marks.fold(0, |all, mark| all | mark));
         }
         number
     }
@@ -86,13 +82,34 @@ impl Actors {
 
     /// The datagrams that are on their way to an actor.
     pub fn mailbox(&self, actor: u32) -> &[u32] {
-        self.mailboxes.row(self.rows.row(actor)[1])
+        self.words(self.number_of_mailbox(actor))
     }
 
-    /// A bit for each datagram in the mailboxes of these actors; several may share one.
-    pub fn marks(&self, actors: &[u32]) -> u32 {
-        let marks = actors.iter().map(|&actor| self.marks[actor as usize]);
-        marks.fold(0, |all, marks| all | marks)
+    /// How many actors there are.
+    pub fn len(&self) -> u32 {
+        self.rows.len()
+    }
+
+    /// How many different mailboxes there are.
+    pub fn mailboxes(&self) -> u32 {
+        self.mailboxes.len()
+    }
+
+    /// The number of an actor's mailbox.
+    pub fn number_of_mailbox(&self, actor: u32) -> u32 {
+        self.rows.row(actor)[1]
+    }
+
+    /// The datagrams in a mailbox.
+    pub fn words(&self, mailbox: u32) -> &[u32] {
+        self.mailboxes.row(mailbox)
+    }
+
+    /// Writes what states that are compared have in common: the state of the checkers and those of the robots.
+    pub fn write_group(&self, watch: u32, row: &[u32], group: &mut Vec<u32>) {
+        group.clear();
+        group.push(watch);
+        group.extend(row[HEAD..].iter().map(|&actor| self.local(actor)));
     }
 
     /// An actor to which a datagram was sent.
@@ -152,7 +169,6 @@ impl Actors {
     pub fn bytes(&self) -> usize {
         self.rows.bytes()
             + self.mailboxes.bytes()
-            + self.marks.capacity() * size_of::<u32>()
             + self.posted.bytes()
             + self.after_post.capacity() * size_of::<u32>()
             + self.prospects.capacity() * size_of::<Option<Prospects>>()

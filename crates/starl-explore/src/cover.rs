@@ -7,20 +7,24 @@
 //! state is only left out for one that is not further from the start, so the first violation found still has the fewest
 //! steps.
 
-use crate::actors::Actors;
-use crate::bounds::Left;
+use crate::actors::HEAD;
 use crate::code::Flying;
-use crate::search::HEAD;
+use crate::facts::Facts;
 use crate::table::Rows;
+use smallvec::SmallVec;
 
 /// The states that have the same robots and checkers, without those that another one covers.
 #[derive(Clone)]
 pub(crate) struct Covers {
     /// Rows of the checkers' state and those of the robots.
     groups: Rows,
-    members: Vec<Vec<Member>>,
-    key: Vec<u32>,
+    members: Vec<Members>,
+    /// Members in memory of their own.
+    outside: usize,
 }
+
+/// Small groups need no memory of their own.
+type Members = SmallVec<[Member; 2]>;
 
 /// A state of a group.
 #[derive(Clone, Copy)]
@@ -30,101 +34,91 @@ struct Member {
     marks: u32,
 }
 
-/// A state as it is compared: its row, and what is left of the bounds.
-#[derive(Clone, Copy)]
-pub(crate) struct Candidate<'a> {
-    row: &'a [u32],
-    left: Left,
-}
-
-impl<'a> Candidate<'a> {
-    /// The state with this row; `heads` are those of the search.
-    pub fn of(row: &'a [u32], heads: &Rows) -> Candidate<'a> {
-        let left = Left::read(&heads.row(row[0])[1..]);
-        Candidate { row, left }
-    }
-}
-
 impl Covers {
-    pub fn new(robots: usize) -> Covers {
+    pub fn new(width: usize) -> Covers {
         Covers {
-            groups: Rows::new(1 + robots, 0),
+            groups: Rows::new(width, 0),
             members: Vec::new(),
-            key: Vec::new(),
+            outside: 0,
         }
     }
 
-    /// The group of a state.
-    pub fn group(&mut self, watch: u32, row: &[u32], actors: &Actors) -> u32 {
-        self.key.clear();
-        self.key.push(watch);
-        let locals = row[HEAD..].iter().map(|&actor| actors.local(actor));
-        self.key.extend(locals);
-        let (group, is_new) = self.groups.insert(&self.key, &[]);
-        if is_new {
-            self.members.push(Vec::new());
-        }
-        group
-    }
-
-    /// A state of the group that covers this one. `state` gives the states by their numbers.
-    pub fn find<'a>(
-        &self,
-        group: u32,
-        new: Candidate<'_>,
-        actors: &Actors,
-        state: impl Fn(u32) -> Candidate<'a>,
-    ) -> Option<u32> {
-        let marks = actors.marks(&new.row[HEAD..]);
-        let members = self.members[group as usize].iter();
-        let mut covering = members
-            .rev()
-            .filter(|member| marks & !member.marks == 0)
-            .filter(|member| covers(state(member.number), new, actors));
-        covering.next().map(|member| member.number)
-    }
-
-    /// Adds a state to a group. Gives the states that it covers, which leave the group.
+    /// Adds a state to a group, unless it has one that covers it. `row_of` gives the rows of states by their numbers.
+    ///
+    /// Gives the states of the group that it covers, which leave the group.
+    ///
+    /// # Errors
+    /// The state that covers it.
     pub fn add<'a>(
         &mut self,
-        group: u32,
+        group: &[u32],
+        row: &[u32],
         number: u32,
-        new: Candidate<'_>,
-        actors: &Actors,
-        state: impl Fn(u32) -> Candidate<'a>,
-    ) -> Vec<u32> {
-        let marks = actors.marks(&new.row[HEAD..]);
-        let mut covered = Vec::new();
+        facts: &Facts,
+        row_of: impl Fn(u32) -> &'a [u32],
+    ) -> Result<Vec<u32>, u32> {
+        let (group, is_new) = self.groups.insert(group, &[]);
+        if is_new {
+            if self.members.len() == self.members.capacity() {
+                self.members.reserve_exact(more(self.members.len()));
+            }
+            self.members.push(Members::new());
+        }
+        let marks = facts.marks(&row[HEAD..]);
         let members = &mut self.members[group as usize];
-        members.retain(|member| {
+        let covering = members
+            .iter()
+            .rev()
+            .find(|member| marks & !member.marks == 0 && covers(row_of(member.number), row, facts));
+        if let Some(member) = covering {
+            return Err(member.number);
+        }
+        let mut covered = Vec::new();
+        members.retain(|&mut member| {
             let is_covered =
-                member.marks & !marks == 0 && covers(new, state(member.number), actors);
+                member.marks & !marks == 0 && covers(row, row_of(member.number), facts);
             if is_covered {
                 covered.push(member.number);
             }
             !is_covered
         });
         if members.len() == members.capacity() {
-            // Doubling would leave a quarter of the room empty.
-            members.reserve_exact(members.len() / 4 + 1);
+            let before = outside(members);
+            members.reserve_exact(more(members.len()));
+            self.outside += outside(members) - before;
         }
         members.push(Member { number, marks });
-        covered
+        Ok(covered)
     }
 
     /// Memory in use, bytes.
     pub fn bytes(&self) -> usize {
-        let members = self.members.iter().map(Vec::capacity).sum::<usize>() * size_of::<Member>();
-        self.groups.bytes() + members + self.members.capacity() * size_of::<Vec<Member>>()
+        self.groups.bytes()
+            + self.outside * size_of::<Member>()
+            + self.members.capacity() * size_of::<Members>()
     }
 }
 
+/// How many members there is memory for outside of the list itself.
+fn outside(members: &Members) -> usize {
+    match members.spilled() {
+        true => members.capacity(),
+        false => 0,
+    }
+}
+
+/// How many more elements a list of this length gets memory for. Doubling would leave a quarter of the memory empty.
+fn more(len: usize) -> usize {
+    len / 8 + 1
+}
+
 /// Whether one state of a group covers another.
-fn covers(one: Candidate<'_>, other: Candidate<'_>, actors: &Actors) -> bool {
-    let mut robots = one.row[HEAD..].iter().zip(&other.row[HEAD..]);
-    one.left.is_at_least(other.left)
+fn covers(one: &[u32], other: &[u32], facts: &Facts) -> bool {
+    let left = |row: &[u32]| facts.left(row[0]);
+    let mut robots = one[HEAD..].iter().zip(&other[HEAD..]);
+    (one[0] == other[0] || left(one).is_at_least(left(other)))
         && robots
-            .all(|(one, other)| one == other || holds(actors.mailbox(*one), actors.mailbox(*other)))
+            .all(|(one, other)| one == other || holds(facts.mailbox(*one), facts.mailbox(*other)))
 }
 
 /// Whether each datagram of the other mailbox is also in this one, and not older. Both are in the order of age.
@@ -132,8 +126,22 @@ fn holds(one: &[u32], other: &[u32]) -> bool {
     if one.len() < other.len() {
         return false;
     }
+    let mut rest = one.iter();
+    if other.iter().all(|word| rest.any(|mine| mine == word)) {
+        return true;
+    }
+    let has_ages = |mailbox: &[u32]| {
+        mailbox
+            .last()
+            .is_some_and(|&word| Flying(word).number() != word)
+    };
+    (has_ages(one) || has_ages(other)) && holds_younger(one, other)
+}
+
+/// The same where equal datagrams may differ in age.
+fn holds_younger(one: &[u32], other: &[u32]) -> bool {
     // The youngest first. Whatever is young enough for it is so for all that follow, so it does not matter which it takes.
-    let mut taken = smallvec::SmallVec::<[bool; 32]>::from_elem(false, one.len());
+    let mut taken = SmallVec::<[bool; 32]>::from_elem(false, one.len());
     other.iter().all(|&word| {
         let wanted = Flying(word).number();
         let is_it = |place: &usize| {

@@ -9,11 +9,15 @@
 //! any of the search's optimisations.
 
 mod actors;
+mod batch;
 mod bounds;
 mod code;
 mod cover;
 mod doubt;
 mod expand;
+mod facts;
+mod known;
+mod level;
 mod model;
 mod moves;
 mod robot;
@@ -23,6 +27,7 @@ mod search;
 mod step;
 mod table;
 mod texts;
+mod threads;
 mod twins;
 mod walk;
 mod warm_up;

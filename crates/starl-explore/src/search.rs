@@ -3,52 +3,54 @@
 //! A state is a row of words: the number of the checkers' state and the remaining bounds, and the number of each
 //! robot's state with its datagrams in transit. The row contains everything that the next steps depend on. States are
 //! compared whole, and those that a known one covers are left out ([`crate::cover`]).
+//!
+//! The search continues in batches of steps. While the states that a batch leads to are entered ([`crate::known`]), the
+//! next states are expanded ([`crate::expand`]). Then the new states are judged, in the order of the steps. So threads
+//! do not change what is found.
 
 use crate::Setup;
-use crate::actors::Actors;
-use crate::bounds::{Bounds, Left};
-use crate::code::{Code, Flying, MOST_ROBOTS};
-use crate::cover::{Candidate, Covers};
+use crate::actors::HEAD;
+use crate::batch::{Batch, Site};
+use crate::bounds::Bounds;
+use crate::code::{Code, Flying, Kind, MOST_ROBOTS};
 use crate::doubt::Doubt;
-use crate::robots::{NOTHING, Robots};
+use crate::expand::Expander;
+use crate::known::{Arrival, Known};
+use crate::level::Level;
+use crate::robots::Robots;
 use crate::scene::{Invariant, Scene};
 use crate::step::Step;
-use crate::table::{Rows, Table};
+use crate::table::Table;
+use crate::threads::{both, pays};
 use crate::walk::Walk;
-use crate::watch::Watches;
 use starl_core::event::PrimitiveEvent;
 use starl_core::{Event, RobotId};
 use starl_properties::Violation;
-use std::collections::BTreeSet;
 
 /// A search under way.
 #[derive(Clone)]
 pub struct Search {
-    pub(crate) bounds: Bounds,
-    pub(crate) robots: Robots,
-    watches: Watches,
+    bounds: Bounds,
+    expander: Expander,
     invariants: Vec<Box<dyn Invariant>>,
     /// Rows of robots' states that invariants have judged.
     judged: Table,
-    /// The states of the checkers, and the remaining bounds.
-    heads: Rows,
-    pub(crate) actors: Actors,
-    /// Rows of a head and the actors; with each the state before it, and the step from there.
-    pub(crate) states: Rows,
-    /// None where a fleet that waits for a lost datagram counts: a state that covers another one does not wait.
-    covers: Option<Covers>,
-    /// States that need not be expanded, since others cover them that are as near to the start.
-    covered: BTreeSet<u32>,
-    /// The first state that was not expanded.
-    next: u32,
-    /// The first state that is further from the start than those that are expanded now.
-    level: u32,
-    depth: u32,
+    known: Known,
+    level: Level,
+    /// How many levels were begun.
+    levels: u32,
+    /// The states that are one step further from the start than the level.
+    beyond: Vec<u32>,
+    /// The steps that are to be entered next.
+    ready: Batch,
+    /// Memory for the steps after these.
+    spare: Batch,
+    found: u32,
+    expanded: u32,
     transitions: u64,
     terminal: u64,
-    pub(crate) end: Option<End>,
-    /// The row at hand.
-    pub(crate) row: Vec<u32>,
+    parallel: bool,
+    end: Option<End>,
 }
 
 /// How a search has ended.
@@ -104,8 +106,8 @@ pub struct Report {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyRobots;
 
-/// Where the robots begin in a row.
-pub(crate) const HEAD: usize = 1;
+/// Stands for the state before the first one.
+const START: u32 = u32::MAX;
 
 impl Search {
     /// A search from the state in which all robots have started.
@@ -125,44 +127,42 @@ impl Search {
         if walk.locals.len() > MOST_ROBOTS {
             return Err(TooManyRobots);
         }
-        let mut search = Search {
-            bounds: walk.bounds,
-            robots: Robots::new(walk.surroundings.clone()),
-            watches: Watches::new(walk.checkers.clone()),
-            invariants: walk.invariants.clone(),
-            judged: Table::default(),
-            heads: Rows::new(1 + Left::WORDS, 0),
-            actors: Actors::new(walk.bounds),
-            states: Rows::new(0, 2),
-            covers: None,
-            covered: BTreeSet::new(),
-            next: 0,
-            level: 1,
-            depth: 0,
-            transitions: 0,
-            terminal: 0,
-            end: None,
-            row: Vec::new(),
-        };
+        let robots = Robots::new(walk.surroundings.clone());
+        let mut expander = Expander::new(walk.bounds, robots, walk.checkers.clone());
         let mut mailboxes = vec![Vec::new(); walk.locals.len()];
         for (datagram, age) in walk.flying() {
-            let number = search.robots.number_of(datagram.clone());
+            let number = expander.robots.number_of(datagram.clone());
             mailboxes[datagram.to.index()].push(Flying::aged(number, age).0);
         }
-        let head = search.number_of_head(0, walk.left);
-        search.row.push(head);
+        let mut row = vec![expander.number_of_head(0, walk.left)];
         for (local, mut mailbox) in walk.locals.iter().zip(mailboxes) {
             mailbox.sort_unstable();
-            let local = search.robots.number(local.clone());
-            let actor = search.actors.number(local, &mailbox);
-            search.row.push(actor);
+            let local = expander.robots.number(local.clone());
+            row.push(expander.actors.number(local, &mailbox));
         }
-        search.set_covering(!walk.surroundings.model.all_finish);
-        if let Some(violation) = search.judge() {
-            search.blame(0, None, violation);
-        }
-        if let Some(violation) = violations.into_iter().next() {
-            search.blame(0, None, violation);
+        let width = row.len();
+        let mut search = Search {
+            bounds: walk.bounds,
+            expander,
+            invariants: walk.invariants.clone(),
+            judged: Table::default(),
+            known: Known::new(width, true),
+            level: Level::new(width),
+            levels: 0,
+            beyond: Vec::new(),
+            ready: Batch::new(width),
+            spare: Batch::new(width),
+            found: 0,
+            expanded: 0,
+            transitions: 0,
+            terminal: 0,
+            parallel: false,
+            end: None,
+        };
+        search.begin(&row, !walk.surroundings.model.all_finish);
+        let violation = search.judge(&row).or(violations.into_iter().next());
+        if let Some(violation) = violation {
+            search.blame(search.beyond[0], None, violation);
         }
         Ok(search)
     }
@@ -170,178 +170,196 @@ impl Search {
     /// Doubts that states which look alike are alike: costs twice the time where robots have many
     /// states. To be called before the first [`Search::advance`].
     pub fn set_doubting(&mut self, doubting: bool) {
-        self.robots.doubt = doubting.then(Box::<Doubt>::default);
+        self.expander.robots.doubt = doubting.then(Box::<Doubt>::default);
+    }
+
+    /// Whether to work on all threads of the pool in which [`Search::advance`] is called. The results are the same either
+    /// way. Without the feature `parallel` this does nothing.
+    pub fn set_parallel(&mut self, parallel: bool) {
+        self.parallel = parallel;
     }
 
     /// Whether states that others cover are left out; they are, by default, unless all robots must finish. The other
     /// search takes longer and finds the same. To be called before the first [`Search::advance`].
     pub fn set_covering(&mut self, covering: bool) {
-        self.covers = covering.then(|| Covers::new(self.row.len() - HEAD));
-        self.states = Rows::new(self.row.len(), 2);
-        self.number_of_row(0, 0);
+        let start = self.known.row(self.beyond[0]).to_vec();
+        self.begin(&start, covering);
     }
 
-    /// Expands up to this number of states; returns the end of the search once it has ended.
-    pub fn advance(&mut self, states: u32) -> Option<&End> {
-        for _ in 0..states {
-            if self.end.is_some() {
-                break;
-            }
-            let count = self.states.len();
-            if self.next == count {
-                self.end = Some(End::Complete);
-            } else if count >= self.bounds.most_states || self.robots.is_full() {
-                self.end = Some(End::Full);
-            } else {
-                self.go_on();
-            }
+    /// Begins with the state that has this row.
+    fn begin(&mut self, row: &[u32], covering: bool) {
+        self.known = Known::new(row.len(), covering);
+        self.known
+            .catch_up(&self.expander.actors, &self.expander.heads);
+        let nothing = Code::robot(Kind::TickAll, RobotId(0), 0);
+        self.ready.push(START, nothing, row, row);
+        self.beyond = self
+            .known
+            .enter(&self.ready, false)
+            .iter()
+            .map(|start| start.state)
+            .collect();
+        self.ready.clear();
+        self.found = 1;
+    }
+
+    /// Continues with a batch of up to some thousand steps; returns the end of the search once it has ended.
+    pub fn advance(&mut self) -> Option<&End> {
+        if self.end.is_none() {
+            self.go_on();
         }
+        self.end.as_ref()
+    }
+
+    /// The end of the search, if it has ended.
+    pub fn end(&self) -> Option<&End> {
         self.end.as_ref()
     }
 
     /// Searches to the end.
     pub fn run(&mut self) -> &End {
-        while self.advance(u32::MAX).is_none() {}
+        while self.advance().is_none() {}
         self.end.get_or_insert(End::Complete)
     }
 
     /// How far it is.
     pub fn report(&self) -> Report {
+        let robots = &self.expander.robots;
         Report {
-            states: self.states.len(),
-            expanded: self.next,
+            states: self.found,
+            expanded: self.expanded,
             transitions: self.transitions,
-            depth: match self.level < self.states.len() {
-                true => self.depth + 1,
-                false => self.depth,
-            },
+            depth: (self.levels + u32::from(!self.beyond.is_empty())).saturating_sub(1),
             terminal: self.terminal,
-            robot_states: self.robots.len(),
-            checker_states: self.watches.len(),
-            motions: self.robots.motions,
-            compared: self.robots.doubt.as_ref().map_or(0, |doubt| doubt.compared),
-            bytes: self.states.bytes()
-                + self.covers.as_ref().map_or(0, Covers::bytes)
-                + self.heads.bytes()
-                + self.actors.bytes()
-                + self.robots.bytes()
-                + self.watches.bytes(),
+            robot_states: robots.len(),
+            checker_states: self.expander.watches.len(),
+            motions: robots.motions,
+            compared: robots.doubt.as_ref().map_or(0, |doubt| doubt.compared),
+            bytes: self.known.bytes()
+                + self.expander.bytes()
+                + self.level.bytes()
+                + self.beyond.capacity() * size_of::<u32>(),
         }
     }
 
     /// The events of primitives in some behaviour. The exploration says nothing about events that
     /// never happen.
     pub fn told(&self) -> impl Iterator<Item = &PrimitiveEvent> {
-        self.robots.all_events().filter_map(|event| match event {
-            Event::Primitive { event, .. } => Some(event),
-            _ => None,
-        })
+        self.expander
+            .robots
+            .all_events()
+            .filter_map(|event| match event {
+                Event::Primitive { event, .. } => Some(event),
+                _ => None,
+            })
     }
 
     fn go_on(&mut self) {
-        if self.next == self.level {
-            self.level = self.states.len();
-            self.depth += 1;
+        if self.ready.sites.is_empty() {
+            if self.level.is_done() {
+                self.begin_level();
+                return;
+            }
+            self.level.load(&self.known);
+            self.expander.fill(&mut self.level, &mut self.ready);
+            if self.ready.sites.is_empty() {
+                self.end = Some(End::Full);
+                return;
+            }
         }
-        if self.bounds.depth.is_some_and(|depth| self.depth >= depth) {
-            self.end = Some(End::Depth);
-            return;
-        }
-        let state = self.next;
-        self.next += 1;
-        if self.covered.remove(&state) {
-            return;
-        }
-        self.expand(state);
-        let doubt = self.robots.doubt.as_ref();
-        if let Some(text) = doubt.and_then(|doubt| doubt.contradiction.clone()) {
-            self.end = Some(End::Contradiction(text));
-        }
+        let Search {
+            expander,
+            known,
+            level,
+            ready,
+            spare,
+            parallel,
+            ..
+        } = self;
+        let parallel = *parallel && pays(ready.len());
+        level.load(known);
+        known.catch_up(&expander.actors, &expander.heads);
+        let enter = || known.enter(ready, parallel);
+        let (arrivals, ()) = both(parallel, enter, || expander.fill(level, spare));
+        let batch = std::mem::replace(&mut self.ready, std::mem::take(&mut self.spare));
+        self.settle(&batch, &arrivals);
+        self.spare = batch;
     }
 
-    /// Enters the state that the row at hand leads to; gives its number, or none where something is violated.
-    pub(crate) fn enter(&mut self, from: u32, code: Code) -> Option<u32> {
-        self.transitions += 1;
-        let (number, is_new) = self.number_of_row(from, code.0);
-        if is_new && let Some(violation) = self.judge() {
-            self.blame(number, None, violation);
-            return None;
-        }
-        Some(number)
-    }
-
-    /// The number of the state with the row at hand, or of one that covers it; and whether it is new.
-    fn number_of_row(&mut self, from: u32, code: u32) -> (u32, bool) {
-        let Some(covers) = &mut self.covers else {
-            return self.states.insert(&self.row, &[from, code]);
+    /// Takes the states that are one step further from the start.
+    fn begin_level(&mut self) {
+        self.end = match self.beyond.is_empty() {
+            true => Some(End::Complete),
+            false if self.is_full() => Some(End::Full),
+            false if self.bounds.depth.is_some_and(|depth| self.levels >= depth) => {
+                Some(End::Depth)
+            }
+            false => None,
         };
-        let (states, heads) = (&self.states, &self.heads);
-        let watch = heads.row(self.row[0])[0];
-        let group = covers.group(watch, &self.row, &self.actors);
-        let new = Candidate::of(&self.row, heads);
-        let known = |number: u32| Candidate::of(states.row(number), heads);
-        if let Some(known) = covers.find(group, new, &self.actors, known) {
-            return (known, false);
+        if self.end.is_some() {
+            return;
         }
-        let number = states.len();
-        let covered = covers.add(group, number, new, &self.actors, known);
-        // Those of the present level are not further from the start than this one.
-        let level = self.level;
-        self.covered
-            .extend(covered.into_iter().filter(|&other| other >= level));
-        (self.states.push(&self.row, &[from, code]), true)
+        self.levels += 1;
+        self.known.begin_level();
+        self.expanded += self.level.begin(&mut self.beyond, &self.known) as u32;
     }
 
-    /// The states of the checkers, and the remaining bounds.
-    pub(crate) fn head(&self, number: u32) -> (u32, Left) {
-        let row = self.heads.row(number);
-        (row[0], Left::read(&row[1..]))
-    }
-
-    pub(crate) fn number_of_head(&mut self, watch: u32, left: Left) -> u32 {
-        let [first, second] = left.words();
-        self.heads.insert(&[watch, first, second], &[]).0
-    }
-
-    /// Shows the checkers the events of the step that leads to the current row. Returns their state after it; none if a
-    /// property is violated.
-    pub(crate) fn show(&mut self, watch: u32, batch: u32, from: u32, code: Code) -> Option<u32> {
-        if batch == NOTHING {
-            return Some(watch);
+    /// Counts and judges where the steps of a batch lead, in order.
+    fn settle(&mut self, batch: &Batch, arrivals: &[Arrival]) {
+        let mut begin = 0;
+        for site in &batch.sites {
+            if self.is_full() {
+                self.end = Some(End::Full);
+                return;
+            }
+            self.expanded += 1;
+            let mut moves = false;
+            for (step, arrival) in (begin..).zip(&arrivals[begin..site.end]) {
+                let &Arrival { state, is_new } = arrival;
+                self.transitions += 1;
+                moves |= state != site.state;
+                if is_new {
+                    self.found += 1;
+                    self.beyond.push(state);
+                    if let Some(violation) = self.judge(batch.row(step)) {
+                        self.blame(state, None, violation);
+                        return;
+                    }
+                }
+            }
+            begin = site.end;
+            match &site.violation {
+                Some((code, violation)) => self.blame(site.state, Some(*code), violation.clone()),
+                None if !moves => self.is_terminal(site),
+                None => {}
+            }
         }
-        let locals = self.row[HEAD..]
-            .iter()
-            .map(|&actor| self.actors.local(actor));
-        let ticks = locals.map(|local| self.robots.state(local).clock).max();
-        let ticks = ticks.unwrap_or_default();
-        let at = self.robots.surroundings.time(ticks);
-        let events = self.robots.events(batch);
-        let shown = self.watches.show(watch, (batch, events), (ticks, at));
-        let watch = shown.watch;
-        let found = shown.violation.as_deref().cloned();
-        if let Some(violation) = found.or_else(|| crate::failure(events, at)) {
-            self.blame(from, Some(code), violation);
-            return None;
+        if let Some(text) = &batch.contradiction {
+            self.end = Some(End::Contradiction(text.clone()));
         }
-        Some(watch)
     }
 
-    /// Has the invariants judge the row at hand.
-    fn judge(&mut self) -> Option<Violation> {
+    /// Whether there are as many states as may be.
+    fn is_full(&self) -> bool {
+        self.found >= self.bounds.most_states
+    }
+
+    /// Has the invariants judge a row.
+    fn judge(&mut self, row: &[u32]) -> Option<Violation> {
         if self.invariants.is_empty() {
             return None;
         }
-        let actors = self.row[HEAD..].iter();
-        let locals: Vec<u32> = actors.map(|&actor| self.actors.local(actor)).collect();
+        let Expander { actors, robots, .. } = &self.expander;
+        let locals: Vec<u32> = row[HEAD..]
+            .iter()
+            .map(|&actor| actors.local(actor))
+            .collect();
         if !self.judged.insert(&locals).1 {
             return None;
         }
         let scene = Scene {
-            locals: locals
-                .iter()
-                .map(|&local| self.robots.state(local))
-                .collect(),
-            surroundings: &self.robots.surroundings,
+            locals: locals.iter().map(|&local| robots.state(local)).collect(),
+            surroundings: &robots.surroundings,
         };
         let mut violations = Vec::new();
         for invariant in &self.invariants {
@@ -351,10 +369,13 @@ impl Search {
     }
 
     /// Nothing leads on from a state.
-    pub(crate) fn is_terminal(&mut self, state: u32, stuck: Option<Violation>) {
+    fn is_terminal(&mut self, site: &Site) {
         self.terminal += 1;
-        if let Some(violation) = stuck {
-            self.blame(state, None, violation);
+        let stuck = || self.expander.stuck(self.known.row(site.state));
+        if !site.is_held
+            && let Some(violation) = stuck()
+        {
+            self.blame(site.state, None, violation);
         }
     }
 
@@ -362,16 +383,19 @@ impl Search {
     fn blame(&mut self, state: u32, code: Option<Code>, violation: Violation) {
         let mut codes: Vec<(u32, Code)> = code.map(|code| (state, code)).into_iter().collect();
         let mut at = state;
-        while at != 0 {
-            let kept = self.states.kept(at);
-            codes.push((kept[0], Code(kept[1])));
-            at = kept[0];
+        while let before = self.known.before(at)
+            && before != START
+        {
+            let (from, to) = (self.known.row(before), self.known.row(at));
+            codes.extend(self.expander.code(from, to).map(|code| (before, code)));
+            at = before;
         }
+        let Expander { actors, robots, .. } = &self.expander;
         let steps = codes.into_iter().rev().map(|(before, code)| {
             let robot = code.of_robot().unwrap_or(RobotId(0));
-            let actor = self.states.row(before).get(HEAD + robot.index());
-            let local = actor.map_or(0, |&actor| self.actors.local(actor));
-            code.step(local, &self.robots)
+            let actor = self.known.row(before).get(HEAD + robot.index());
+            let local = actor.map_or(0, |&actor| actors.local(actor));
+            code.step(local, robots)
         });
         self.end = Some(End::Violated(Counterexample {
             steps: steps.collect(),

@@ -16,6 +16,11 @@ pub struct Table {
 }
 
 impl Table {
+    /// How many rows there are.
+    pub fn len(&self) -> u32 {
+        self.ends.len() as u32
+    }
+
     /// The row with this number; empty if there is none.
     pub fn row(&self, number: u32) -> &[u32] {
         row_of(&self.words, &self.ends, number)
@@ -212,7 +217,8 @@ impl Index {
     }
 }
 
-fn hash(row: &[u32]) -> u64 {
+/// The hash of a row.
+pub fn hash(row: &[u32]) -> u64 {
     let mut digest = Digest::default();
     for pair in row.chunks(2) {
         let high = pair.get(1).map_or(0, |&word| u64::from(word) + 1);

@@ -18,7 +18,7 @@ use crate::output::Output;
 use crate::outputs::refuse_to_overwrite;
 use crate::run::stop_on_interrupt;
 use crate::target::Selection;
-use crate::{console, json, target};
+use crate::{console, json, target, threads};
 use account::Account;
 use progress::Progress;
 use record::Recording;
@@ -33,9 +33,6 @@ use std::time::Instant;
 
 /// Fleets are this large unless the command says otherwise.
 const ROBOTS: usize = 3;
-
-/// States that are expanded between two looks at the clock and at the keyboard.
-const STRIDE: u32 = 500;
 
 /// Explores what the arguments say, or goes a way that was found before.
 pub fn run(arguments: &ExploreArguments, registry: &Registry) -> Result<ExitCode, Failure> {
@@ -82,11 +79,15 @@ fn explore(
     search.set_doubting(arguments.doubt);
     let is_interrupted = || stop.load(Ordering::Relaxed);
     let is_late = || begun.elapsed().as_secs_f64() >= within.seconds();
-    while !is_interrupted() && !is_late() && search.advance(STRIDE).is_none() {
-        progress.advance(&search.report());
-    }
+    let threads = threads::for_runs(arguments.threads);
+    search.set_parallel(threads > 1);
+    threads::with(threads, || {
+        while !is_interrupted() && !is_late() && search.advance().is_none() {
+            progress.advance(&search.report());
+        }
+    })?;
     progress.clear();
-    let end = search.advance(0).cloned();
+    let end = search.end().cloned();
     let mut account = Account::new(target, &recording, &search.report(), end.as_ref());
     if end.is_none() && !is_interrupted() {
         account.run_late(&arguments.within);

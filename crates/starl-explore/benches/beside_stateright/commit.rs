@@ -114,7 +114,7 @@ impl Invariant for Consistent {
 }
 
 /// Searches all states with this number of resource managers.
-pub fn search(managers: usize) -> Report {
+pub fn search(managers: usize, threads: usize) -> Report {
     let program = Participant {
         stage: Stage::Working,
         prepared: vec![false; managers],
@@ -131,6 +131,7 @@ pub fn search(managers: usize) -> Report {
         invariants: vec![Box::new(Consistent)],
     };
     let mut search = Search::new(setup).expect("few robots");
+    search.set_parallel(threads > 1);
     assert_eq!(search.run(), &End::Complete);
     search.report()
 }

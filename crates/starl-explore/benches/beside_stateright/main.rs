@@ -1,8 +1,9 @@
 //! Two-phase commit (Gray and Lamport 2006, Consensus on Transaction Commit), searched by this crate and by
-//! stateright, whose example `2pc` its model is. Both find the same number of states, on one core each.
+//! stateright, whose example `2pc` its model is. Both find the same number of states.
 //!
-//! `-- ours N` and `-- stateright N` search with N resource managers, 8 unless another number is given. For
-//! the memory, run the binary under `/usr/bin/time -v`.
+//! `-- ours N THREADS` and `-- stateright N THREADS` search with N resource managers, 8 unless another number is given,
+//! on one thread unless another number is given (`--features parallel` for ours). For the memory, run the binary under
+//! `/usr/bin/time -v`.
 
 #![allow(
     clippy::disallowed_methods,
@@ -16,8 +17,9 @@ use std::time::Instant;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let managers = arguments.iter().find_map(|text| text.parse().ok());
-    let managers: usize = managers.unwrap_or(8);
+    let mut numbers = arguments.iter().filter_map(|text| text.parse().ok());
+    let managers: usize = numbers.next().unwrap_or(8);
+    let threads: usize = numbers.next().unwrap_or(1);
     let is_meant = |name: &str| {
         let names = ["ours", "stateright"].iter();
         arguments.iter().any(|argument| argument == name)
@@ -28,7 +30,7 @@ fn main() {
     let mut counts = Vec::new();
     if is_meant("ours") {
         let begun = Instant::now();
-        let report = commit::search(managers);
+        let report = commit::search(managers, threads);
         tell("starl-explore", report.states as usize, begun);
         let bytes = report.bytes as f64 / f64::from(report.states);
         println!("    {bytes:.1} bytes a state in all tables");
@@ -36,7 +38,7 @@ fn main() {
     }
     if is_meant("stateright") {
         let begun = Instant::now();
-        let states = theirs::search(managers);
+        let states = theirs::search(managers, threads);
         tell("stateright", states, begun);
         counts.push(states);
     }

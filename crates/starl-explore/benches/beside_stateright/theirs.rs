@@ -143,9 +143,9 @@ impl Model for TwoPhaseSys {
 }
 
 /// Searches all states with this number of resource managers, breadth first on one thread.
-pub fn search(managers: usize) -> usize {
+pub fn search(managers: usize, threads: usize) -> usize {
     let model = TwoPhaseSys { rms: 0..managers };
-    let checker = model.checker().threads(1).spawn_bfs().join();
+    let checker = model.checker().threads(threads).spawn_bfs().join();
     checker.assert_properties();
     checker.unique_state_count()
 }

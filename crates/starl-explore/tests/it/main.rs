@@ -10,6 +10,7 @@ mod permission_mutex_is_safe;
 mod registrations_agree;
 mod steps_in_files;
 mod support;
+mod threads_change_nothing;
 mod three_robots_with_a_crash;
 mod ties_that_nobody_breaks_are_caught;
 mod what_can_go_wrong_is_told_apart;
