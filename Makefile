@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test module-and-check check unit portable wheel viewer python wasm golden wasm-module page embedded site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
+.PHONY: run setup test page-and-check check unit portable wheel viewer python wasm golden wasm-module page embedded site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -14,16 +14,16 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs. The page comes before the first build of the command, which contains it.
-test: setup module-and-check page unit
+test: setup page-and-check unit
 	$(MAKE) --no-print-directory --jobs=3 --output-sync $(WHOLE)
 
 # The parts that test the whole command run three at a time, since browsers, Python and devices often wait. Each shows its
 # output when it ends. The parts that never wait come last; `docs` keeps others from building, so it comes after `python`.
 WHOLE = python web devices wasm trace schema portable faults examples docs deny
 
-# One core links the page's module, and clippy uses the other.
-module-and-check: setup
-	$(MAKE) --no-print-directory --jobs=2 wasm-module check
+# One core links the page's module and builds the page, and clippy uses the other.
+page-and-check: setup
+	$(MAKE) --no-print-directory --jobs=2 page check embedded
 
 setup:
 	tools/setup.sh
@@ -64,9 +64,14 @@ wasm-module:
 	mkdir -p $(dir $(MODULE))
 	[ $(MODULE) -nt $(LINKED_MODULE) ] || wasm-opt $(WASM_FEATURES) -O1 --dae-optimizing $(LINKED_MODULE) -o $(MODULE)
 
-# The page: built into playground/dist, where a `starl` that is built afterwards finds it.
+# The files that the page is made of.
+PAGE_SOURCES = $(addprefix playground/,build public src wasm index.html package-lock.json tsconfig.json vite.config.ts \
+	vite.embedded.config.ts) apps/starl-wasm apps/starl-catalog/src/default.toml docs/errors
+
+# The page: built into playground/dist, where a `starl` that is built afterwards finds it. It is not built again without
+# need, since then the command would be too.
 page: setup wasm-module
-	cd playground && npm run --silent build
+	! tools/newer.sh playground/dist/index.html $(PAGE_SOURCES) || { cd playground && npm run --silent build; }
 
 # The page as a folder for any static host.
 site: page
@@ -107,7 +112,7 @@ $(MODULE): wasm-module
 
 # The page as one file, inside notebooks.
 embedded: setup
-	cd playground && npm run --silent embedded
+	! tools/newer.sh playground/embedded/viewer.html $(PAGE_SOURCES) || { cd playground && npm run --silent embedded; }
 
 # The page in a real browser.
 web: page embedded $(STARL)
