@@ -1,4 +1,4 @@
-//! What it takes to compare states, apart from their rows: the datagrams in transit, and what is left of the bounds.
+//! The facts that it takes to compare states, apart from their rows: the datagrams in transit, and the remaining bounds.
 //!
 //! It is a copy, so that states can be compared while others are expanded and more actors are found.
 
@@ -7,7 +7,7 @@ use crate::bounds::Left;
 use crate::code::Flying;
 use crate::table::Rows;
 
-/// Mailboxes by actor, and what is left of the bounds by head.
+/// Mailboxes by actor, and the remaining bounds by head.
 #[derive(Clone, Default)]
 pub(crate) struct Facts {
     words: Vec<u32>,
@@ -51,7 +51,7 @@ impl Facts {
         marks.fold(0, |all, marks| all | marks)
     }
 
-    /// What is left of the bounds.
+    /// The remaining bounds.
     pub fn left(&self, head: u32) -> Left {
         self.left[head as usize]
     }

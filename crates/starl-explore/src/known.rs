@@ -84,7 +84,7 @@ impl Known {
         }
     }
 
-    /// Takes note of the actors and heads that were found since the last call.
+    /// Records the actors and heads that were found since the last call.
     pub fn catch_up(&mut self, actors: &Actors, heads: &Rows) {
         self.facts.catch_up(actors, heads);
     }

@@ -27,7 +27,7 @@ impl Level {
         }
     }
 
-    /// Begins with these states, and leaves an empty list. Gives how many are left out because others cover them.
+    /// Begins with these states, and leaves an empty list. Returns how many are omitted because others cover them.
     pub fn begin(&mut self, states: &mut Vec<u32>, known: &Known) -> usize {
         self.states.clear();
         std::mem::swap(&mut self.states, states);
