@@ -70,6 +70,17 @@ impl Application {
     }
 }
 
+impl Application {
+    /// The programs' properties that an exploration does not judge, because they are about more than single states.
+    pub fn unexplored_properties(&self) -> Vec<String> {
+        let scenario = self.scenario();
+        match scenario.properties.program {
+            true => self.programs.properties_of_paths(scenario),
+            false => Vec::new(),
+        }
+    }
+}
+
 /// The obstacles that robots know from the start.
 fn known(scenario: &Scenario) -> Obstacles {
     let listed = scenario.world.obstacles.iter();

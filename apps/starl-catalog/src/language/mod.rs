@@ -18,6 +18,7 @@ use source::Compiled;
 use starl_core::{Port, RobotId};
 use starl_explore::Invariant;
 use starl_lang::diagnostic::Diagnostic;
+use starl_lang::machine::Claim;
 use starl_lang::robot::{Code, RobotProgram};
 use starl_properties::Monitor;
 use starl_sim::Scenario;
@@ -100,6 +101,19 @@ impl Programs {
         invariants
             .map(|invariant| Box::new(invariant) as Box<dyn Invariant>)
             .collect()
+    }
+
+    /// The names of the properties that are about more than single states.
+    pub fn properties_of_paths(&self, scenario: &Scenario) -> Vec<String> {
+        let named = self.named(&scenario.fleet);
+        let names = named.flat_map(|(name, code, _)| {
+            let properties = code.program().bytecode().properties.iter();
+            let of_paths =
+                properties.filter(|property| !matches!(property.claim, Claim::Always(_)));
+            let names = of_paths.map(|property| format!("{name}.{}", property.name));
+            names.collect::<Vec<_>>()
+        });
+        names.collect()
     }
 
     /// The condition for the robots of each program for which it has no errors.

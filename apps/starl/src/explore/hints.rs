@@ -60,6 +60,16 @@ impl Request {
 pub const UNJUDGED: &str = "actions with `every` and `for` wait while clocks stand still, so whether robots finish is \
                             not judged: let clocks tick, e.g. --tick 1s --time 4s --delay 1";
 
+/// The note about properties that are not judged.
+pub fn unjudged(properties: &[String]) -> Option<String> {
+    let names = properties.join(", ");
+    (!properties.is_empty()).then(|| {
+        format!(
+            "properties with `eventually` or `leads_to` have deadlines and are not judged: {names}"
+        )
+    })
+}
+
 /// The notes, from the events of primitives in all visited behaviours.
 pub fn hints<'a>(
     bounds: &Bounds,

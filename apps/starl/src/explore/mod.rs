@@ -95,6 +95,9 @@ fn explore(
     if !matches!(end, Some(End::Violated(_))) {
         let is_complete = end == Some(End::Complete);
         account.hints = hints::hints(&recording.bounds, search.told(), is_complete);
+        account
+            .hints
+            .extend(hints::unjudged(&application.unexplored_properties()));
         let is_goal = application.scenario().goal == Goal::AllFinished;
         if is_goal && !setup.model.all_finish {
             account.hints.push(hints::UNJUDGED.to_string());

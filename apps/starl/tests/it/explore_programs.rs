@@ -192,6 +192,16 @@ fn requests_that_are_never_granted_are_noted() {
 }
 
 #[test]
+fn properties_that_are_not_judged_are_noted() {
+    let folder = folder("explore_unjudged");
+    let program = "program Counter\n\nn: Int = 0\n\ncount()\n    pre n == 0\n    eff\n        n += 1\n        finish()\n\n\
+                   invariant small: forall r: r.n <= 1\neventually done: n == 1 within 5s\n";
+    file(&folder, "counter.starl", program);
+    let text = stdout(&explore(&folder, &["counter.starl"]));
+    assert!(text.contains("not judged: Counter.done\n"), "{text}");
+}
+
+#[test]
 fn bad_input_is_refused() {
     let folder = folder("explore_bad");
     let target = polite(&folder);

@@ -69,7 +69,7 @@ pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colo
             _ => ("problems", "are"),
         };
         text.push_str(&format!(
-            "{more} more {problems} of {name} {verb} not shown\n\n"
+            "{more} more {problems} of {name} {verb} not shown; `starl check --json` lists all\n\n"
         ));
     }
     text
@@ -212,7 +212,9 @@ mod tests {
         let errors: Vec<Diagnostic> = (0..3000).map(error).collect();
         let text = render("deep.starl", &source, &errors, Colour::Off);
         assert!(text.len() < 100_000, "{}", text.len());
-        assert!(text.ends_with("2980 more problems of deep.starl are not shown\n\n"));
+        assert!(text.ends_with(
+            "2980 more problems of deep.starl are not shown; `starl check --json` lists all\n\n"
+        ));
     }
 
     /// They were 20 warnings on 164 lines, without the error.

@@ -275,7 +275,8 @@ fn a_claim_about_the_fleet_names_the_robot_that_was_looked_at_last() {
     let violations = judge.observe(seconds(21), &fleet);
     assert_eq!(rows(&violations), [Vec::<u32>::new()]);
     let text = violations[0].to_string();
-    assert!(text.contains("looked at last; robot 1 at"), "{text}");
+    let seen = "looked at last; robot 1 at (1.00, 0.00, 0.00): finished = false, done = true";
+    assert!(text.ends_with(seen), "{text}");
 }
 
 const LEADS_TO: &str = "program LeadsTo

@@ -151,7 +151,7 @@ impl Evaluation<'_> {
         let now = self.host.now;
         let uncorrupted = self.host.fleet.uncorrupted();
         let recovery = self.property.recovery.map_or(RECOVERY, Duration);
-        if !self.history.reads.is_empty()
+        if self.history.reads.has_variables()
             && uncorrupted < recovery
             && uncorrupted < now.since(Time::ZERO)
         {

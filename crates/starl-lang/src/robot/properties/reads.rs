@@ -15,6 +15,8 @@ pub struct Reads {
     variables: Vec<usize>,
     /// Shared variables.
     shared: Vec<Shared>,
+    /// Whether it reads if robots have finished.
+    finished: bool,
 }
 
 /// A shared variable that is read.
@@ -28,9 +30,9 @@ struct Shared {
 }
 
 impl Reads {
-    /// Whether it reads none.
-    pub fn is_empty(&self) -> bool {
-        self.variables.is_empty() && self.shared.is_empty()
+    /// Whether it reads variables, which a fault may overwrite.
+    pub fn has_variables(&self) -> bool {
+        !self.variables.is_empty() || !self.shared.is_empty()
     }
 
     /// Those that a claim reads.
@@ -47,6 +49,7 @@ impl Reads {
             bytecode.code.get(range).unwrap_or_default()
         });
         let (mut scalars, mut objects, mut shared) = (Vec::new(), Vec::new(), Vec::new());
+        let mut finished = false;
         for instruction in instructions {
             match instruction {
                 Instruction::LoadOther { variable, .. }
@@ -54,6 +57,7 @@ impl Reads {
                 Instruction::LoadOtherObject { variable, .. } => objects.push(variable.0 as usize),
                 Instruction::CallHost { import, .. } => {
                     let import = bytecode.imports.get(import.0 as usize);
+                    finished |= import.is_some_and(|import| import.name == "robot.finished");
                     let found = import.and_then(|import| Shared::of(bytecode, import));
                     shared.extend(found.filter(|found| !shared.contains(found)));
                 }
@@ -72,10 +76,14 @@ impl Reads {
             }
             next = end;
         }
-        Reads { variables, shared }
+        Reads {
+            variables,
+            shared,
+            finished,
+        }
     }
 
-    /// Their values on a robot, with their names; of all variables of the state if none is read.
+    /// Their values on a robot, with their names; of all variables of the state if it reads none.
     pub fn values(
         &self,
         program: &Program,
@@ -83,7 +91,7 @@ impl Reads {
         robot: RobotId,
     ) -> Vec<(String, Value)> {
         let names: Vec<&str> = (program.bytecode().variables.iter().enumerate())
-            .filter(|(index, _)| self.is_empty() || self.variables.contains(index))
+            .filter(|(index, _)| !self.has_variables() || self.variables.contains(index))
             .map(|(_, variable)| &variable.name[..])
             .collect();
         let state = fleet.state_of(robot);
@@ -95,7 +103,9 @@ impl Reads {
             let value = shared.value(program, fleet, robot)?;
             Some((shared.name.clone(), value))
         });
-        own.chain(shared).collect()
+        let finished = (self.finished).then(|| Value::Bool(fleet.has_finished(robot)));
+        let finished = finished.map(|value| ("finished".into(), value));
+        finished.into_iter().chain(own).chain(shared).collect()
     }
 }
 
