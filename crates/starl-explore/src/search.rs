@@ -191,8 +191,10 @@ impl Search {
         self.known = Known::new(row.len(), covering);
         self.known
             .catch_up(&self.expander.actors, &self.expander.heads);
+        let mut group = Vec::new();
+        self.expander.actors.write_group(0, row, &mut group);
         let nothing = Code::robot(Kind::TickAll, RobotId(0), 0);
-        self.ready.push(START, nothing, row, row);
+        self.ready.push(START, nothing, row, &group);
         self.beyond = self
             .known
             .enter(&self.ready, false)
@@ -307,7 +309,7 @@ impl Search {
     /// Counts and judges where the steps of a batch lead, in order.
     fn settle(&mut self, batch: &Batch, arrivals: &[Arrival]) {
         let mut begin = 0;
-        for site in &batch.sites {
+        'sites: for site in &batch.sites {
             if self.is_full() {
                 self.end = Some(End::Full);
                 return;
@@ -323,7 +325,7 @@ impl Search {
                     self.beyond.push(state);
                     if let Some(violation) = self.judge(batch.row(step)) {
                         self.blame(state, None, violation);
-                        return;
+                        break 'sites;
                     }
                 }
             }
@@ -332,6 +334,9 @@ impl Search {
                 Some((code, violation)) => self.blame(site.state, Some(*code), violation.clone()),
                 None if !moves => self.is_terminal(site),
                 None => {}
+            }
+            if self.end.is_some() {
+                break;
             }
         }
         if let Some(text) = &batch.contradiction {

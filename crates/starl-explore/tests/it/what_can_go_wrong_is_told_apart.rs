@@ -95,6 +95,23 @@ fn a_robot_that_waits_for_a_lost_message_is_stuck() {
 }
 
 #[test]
+fn of_two_violations_that_are_equally_near_the_first_one_ends_the_search() {
+    // The greeting arrives or is lost, and the third robot waits in vain.
+    let bounds = Bounds {
+        losses: 1,
+        ..Bounds::default()
+    };
+    let mut setup = setup(3, Greeter::default(), bounds);
+    setup.model.all_finish = true;
+    let mut search = search(setup);
+    let End::Violated(found) = search.run() else {
+        panic!("{:?}", search.report());
+    };
+    assert_eq!(found.violation.robots, [RobotId(2)]);
+    assert_eq!(search.report().terminal, 1);
+}
+
+#[test]
 fn a_robot_that_retransmits_is_not_stuck() {
     for timers in [0, 1, 2] {
         let greeter = Greeter {
