@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test page-and-check check unit portable wheel viewer python wasm golden wasm-module page embedded site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
+.PHONY: run setup setup-compiler test page-and-check check unit portable wheel wheel-for-tests viewer python wasm golden linked-module wasm-module page embedded site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -14,25 +14,29 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs. The page comes before the first build of the command, which contains it.
-test: setup page-and-check unit
-	$(MAKE) --no-print-directory --jobs=3 --output-sync $(WHOLE)
+test: page-and-check unit
+	$(MAKE) --no-print-directory --jobs=3 --output-sync FIRST=wheel-for-tests $(WHOLE)
 
 # The parts that test the whole command run three at a time, since browsers, Python and devices often wait. Each shows its
-# output when it ends. The parts that never wait come last; `docs` keeps others from building, so it comes after `python`.
-WHOLE = python web devices wasm trace schema portable faults examples docs deny
+# output when it ends. The parts that never wait come last. Those that build something wait for what Python's tests need,
+# which take the longest: only one command of cargo builds at a time.
+WHOLE = python web devices wasm trace schema faults examples portable docs deny
+docs portable: | $(FIRST)
 
-# One core links the page's module and builds the page, and clippy uses the other.
-page-and-check: setup
-	$(MAKE) --no-print-directory --jobs=2 page check embedded
+# One core links the page's module and builds the page, and clippy uses the other. Meanwhile packages are downloaded.
+page-and-check:
+	$(MAKE) --no-print-directory --jobs=3 setup page check embedded
 
-setup:
+setup: setup-compiler
 	tools/setup.sh
 
+setup-compiler:
+	tools/setup.sh compiler
+
 # In the profile of the tests, so that clippy and the tests share build scripts and derive macros.
-check:
+check: setup-compiler
 	cargo fmt --all --check
 	cargo clippy --locked --profile test --workspace --all-targets --all-features -- --deny warnings
-	$(VENV)/typos
 
 # Tests of emulated robots and of fleets mostly wait, so that eight run on two cores.
 unit: export RUST_TEST_THREADS ?= $(shell echo $$((4 * $$(getconf _NPROCESSORS_ONLN))))
@@ -59,19 +63,20 @@ golden: wasm-module $(STARL)
 MODULE = playground/wasm/starl.wasm
 LINKED_MODULE = $(CARGO_TARGET_DIR)/wasm32-unknown-unknown/page/starl_wasm.wasm
 WASM_FEATURES = --enable-bulk-memory --enable-sign-ext --enable-mutable-globals --enable-nontrapping-float-to-int
-wasm-module:
+linked-module: setup-compiler
 	cargo build --locked --profile page -p starl-wasm --target wasm32-unknown-unknown
+wasm-module: setup linked-module
 	mkdir -p $(dir $(MODULE))
 	[ $(MODULE) -nt $(LINKED_MODULE) ] || wasm-opt $(WASM_FEATURES) -O1 --dae-optimizing $(LINKED_MODULE) -o $(MODULE)
 
-# The files that the page is made of.
-PAGE_SOURCES = $(addprefix playground/,build public src wasm index.html package-lock.json tsconfig.json vite.config.ts \
+# The files that the page is made of, besides the module.
+PAGE_SOURCES = $(addprefix playground/,build public src index.html package-lock.json tsconfig.json vite.config.ts \
 	vite.embedded.config.ts) apps/starl-wasm apps/starl-catalog/src/default.toml docs/errors
 
 # The page: built into playground/dist, where a `starl` that is built afterwards finds it. It is not built again without
 # need, since then the command would be too.
 page: setup wasm-module
-	! tools/newer.sh playground/dist/index.html $(PAGE_SOURCES) || { cd playground && npm run --silent build; }
+	! tools/newer.sh playground/dist/index.html $(PAGE_SOURCES) $(MODULE) || { cd playground && npm run --silent build; }
 
 # The page as a folder for any static host.
 site: page
@@ -82,20 +87,21 @@ site: page
 
 # The package for Python as a wheel in target/wheels, with the viewer for notebooks in it.
 VIEWER = apps/starl-py/python/starl/_viewer
-WHEEL_PROFILE = release
+MATURIN = $(VENV)/maturin build --locked --manifest-path apps/starl-py/Cargo.toml --out $(CARGO_TARGET_DIR)/wheels
 wheel: setup viewer
 	rm -f $(CARGO_TARGET_DIR)/wheels/starl-*.whl
-	$(WHEEL_ENVIRONMENT) $(VENV)/maturin build --locked --profile $(WHEEL_PROFILE) --manifest-path apps/starl-py/Cargo.toml \
-		--out $(CARGO_TARGET_DIR)/wheels
+	$(MATURIN) --profile release
+
+# The same for the tests: in their profile, so with overflow checks and assertions, and of the crates that they have built.
+wheel-for-tests: setup viewer $(STARL)
+	rm -f $(CARGO_TARGET_DIR)/wheels/starl-*.whl
+	CARGO=$(abspath tools/workspace_cargo.sh) $(MATURIN) --profile test
 
 # The package for Python as its users get it: the wheel in an environment of its own.
 PYTHON_TESTS = $(CARGO_TARGET_DIR)/python-tests
 PYTHON_NEEDS = apps/starl-py/tests/requirements.txt apps/starl-py/pyproject.toml
 PYTHON_INSTALL = $(PYTHON_TESTS)/bin/pip install --quiet --disable-pip-version-check
-# It is built in the profile of the tests, so with overflow checks and assertions, and of the crates that they have built.
-python: WHEEL_PROFILE = test
-python: WHEEL_ENVIRONMENT = CARGO=$(abspath tools/workspace_cargo.sh)
-python: wheel $(STARL)
+python: wheel-for-tests
 	cat $(PYTHON_NEEDS) | cmp -s - $(PYTHON_TESTS)/needs || { rm -rf $(PYTHON_TESTS) && python3 -m venv $(PYTHON_TESTS) && \
 		$(PYTHON_INSTALL) $(CARGO_TARGET_DIR)/wheels/starl-*.whl -r $(firstword $(PYTHON_NEEDS)) && \
 		cat $(PYTHON_NEEDS) >$(PYTHON_TESTS)/needs; }
@@ -173,7 +179,7 @@ faults: $(STARL)
 	tools/workloads.sh $(STARL) tools/storage.txt --seeds 10 --out target/faults
 	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
 		--out target/faults
-	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
+	$(STARL) test search-building intersection-stream --seeds 1 --profile chaos --out target/faults
 	$(STARL) test crossing diffusion --seeds 5 --profile calm,clocks --out target/faults
 
 # The long tests: those that `cargo test` ignores, and the two parts above with more seeds.
@@ -198,7 +204,8 @@ million: $(RELEASE)
 mutants:
 	python3 tools/mutants.py --write
 
-docs:
+docs: setup
+	$(VENV)/typos
 	python3 tools/check_docs.py
 	python3 tools/check_prose.py
 	python3 tools/mutants.py --check

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what `make test` needs beyond a Rust toolchain, make and git: compilation targets, Python's test tools in a
 # folder of their own, and Node.js to run WebAssembly. It skips what is installed, and prints what it installs.
+#
+# Usage: tools/setup.sh [compiler], where `compiler` installs only what Rust code is built with.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -22,11 +24,12 @@ need() { # need COMMAND PACKAGE...: the command, from Debian's packages if it is
 }
 
 need cc gcc
-need python3 python3 python3-venv
-need node nodejs
-
 rustup target add wasm32-unknown-unknown thumbv7em-none-eabihf
 rustup component add rustfmt clippy
+[ "${1:-}" != compiler ] || exit 0
+
+need python3 python3 python3-venv
+need node nodejs
 
 venv=target/venv
 if ! cmp -s tools/requirements.txt "$venv/requirements.txt"; then
