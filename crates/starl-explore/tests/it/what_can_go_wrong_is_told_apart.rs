@@ -96,7 +96,7 @@ fn a_robot_that_waits_for_a_lost_message_is_stuck() {
 
 #[test]
 fn of_two_violations_that_are_equally_near_the_first_one_ends_the_search() {
-    // The greeting arrives or is lost, and the third robot waits in vain.
+    // The greeting arrives or is lost, and the third robot waits for ever.
     let bounds = Bounds {
         losses: 1,
         ..Bounds::default()
