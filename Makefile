@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup setup-compiler test page-and-check check unit portable wheel wheel-for-tests viewer python wasm golden linked-module wasm-module page embedded site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
+.PHONY: run setup setup-compiler test page-and-check check unit portable wheel wheel-for-tests viewer python python-environment wasm golden linked-module wasm-module page embedded site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices crowd
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -25,7 +25,7 @@ docs portable: | $(FIRST)
 
 # One core links the page's module and builds the page, and clippy uses the other. Meanwhile packages are downloaded.
 page-and-check:
-	$(MAKE) --no-print-directory --jobs=3 setup page check embedded
+	$(MAKE) --no-print-directory --jobs=4 setup page check python-environment embedded
 
 setup: setup-compiler
 	tools/setup.sh
@@ -101,13 +101,15 @@ wheel-for-tests: setup viewer $(STARL)
 PYTHON_TESTS = $(CARGO_TARGET_DIR)/python-tests
 PYTHON_NEEDS = apps/starl-py/tests/requirements.txt apps/starl-py/pyproject.toml
 PYTHON_INSTALL = $(PYTHON_TESTS)/bin/pip install --quiet --disable-pip-version-check
-python: wheel-for-tests
-	cat $(PYTHON_NEEDS) | cmp -s - $(PYTHON_TESTS)/needs || { rm -rf $(PYTHON_TESTS) && python3 -m venv $(PYTHON_TESTS) && \
-		$(PYTHON_INSTALL) $(CARGO_TARGET_DIR)/wheels/starl-*.whl -r $(firstword $(PYTHON_NEEDS)) && \
-		cat $(PYTHON_NEEDS) >$(PYTHON_TESTS)/needs; }
+python: wheel-for-tests python-environment
+	$(PYTHON_INSTALL) $(CARGO_TARGET_DIR)/wheels/starl-*.whl
 	$(PYTHON_INSTALL) --force-reinstall --no-deps $(CARGO_TARGET_DIR)/wheels/starl-*.whl
 	cd apps/starl-py && $(abspath $(PYTHON_TESTS))/bin/mypy --strict python/starl tests
 	cd apps/starl-py && STARL=$(abspath $(STARL)) $(abspath $(PYTHON_TESTS))/bin/python -m pytest -q tests
+
+python-environment: setup
+	cat $(PYTHON_NEEDS) | cmp -s - $(PYTHON_TESTS)/needs || { rm -rf $(PYTHON_TESTS) && python3 -m venv $(PYTHON_TESTS) && \
+		$(PYTHON_INSTALL) -r $(firstword $(PYTHON_NEEDS)) && cat $(PYTHON_NEEDS) >$(PYTHON_TESTS)/needs; }
 
 viewer: setup $(MODULE) embedded
 	mkdir -p $(VIEWER)
