@@ -105,7 +105,15 @@ python: wheel-for-tests python-environment
 	$(PYTHON_INSTALL) $(CARGO_TARGET_DIR)/wheels/starl-*.whl
 	$(PYTHON_INSTALL) --force-reinstall --no-deps $(CARGO_TARGET_DIR)/wheels/starl-*.whl
 	cd apps/starl-py && $(abspath $(PYTHON_TESTS))/bin/mypy --strict python/starl tests
-	cd apps/starl-py && STARL=$(abspath $(STARL)) $(abspath $(PYTHON_TESTS))/bin/python -m pytest -q tests
+	$(MAKE) --no-print-directory --jobs=2 --output-sync python-alone python-on-cluster
+
+# The tests of commands on a cluster mostly wait for it.
+PYTEST = cd apps/starl-py && STARL=$(abspath $(STARL)) $(abspath $(PYTHON_TESTS))/bin/python -m pytest -q
+.PHONY: python-alone python-on-cluster
+python-alone:
+	$(PYTEST) tests --ignore tests/test_cluster_command.py
+python-on-cluster:
+	$(PYTEST) tests/test_cluster_command.py
 
 python-environment: setup
 	cat $(PYTHON_NEEDS) | cmp -s - $(PYTHON_TESTS)/needs || { rm -rf $(PYTHON_TESTS) && python3 -m venv $(PYTHON_TESTS) && \
