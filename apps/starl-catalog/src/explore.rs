@@ -68,9 +68,7 @@ impl Application {
             invariants,
         })
     }
-}
 
-impl Application {
     /// The programs' properties that an exploration does not judge, because they are about more than single states.
     pub fn unexplored_properties(&self) -> Vec<String> {
         let scenario = self.scenario();
