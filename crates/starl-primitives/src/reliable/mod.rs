@@ -52,6 +52,8 @@ timers! {
         Answer,
         /// The held messages of an ordered broadcast above the protocol must be checked.
         Look,
+        /// Messages that a robot has sent to itself must be delivered.
+        Deliver,
     }
 }
 

@@ -99,6 +99,22 @@ fn with_hardly_any_memory() {
     }
 }
 
+#[test]
+fn messages_to_the_robot_itself_arrive_once_and_without_the_network() {
+    let wire = Wire {
+        loss: 1.0,
+        ..Wire::perfect()
+    };
+    let mut world = World::new(2, 1, wire, None, Talker::boxed(Options::default()));
+    for message in 1..=3 {
+        world.command(0, unicast(0, message));
+    }
+    world.run_for(Duration::from_millis(10));
+    assert_eq!(world.received(), [(0, 0, 1), (0, 0, 2), (0, 0, 3)]);
+    assert_eq!(world.events("acknowledged").len(), 3);
+    assert_eq!(world.timers(0), 0, "nothing is left to do");
+}
+
 /// The receiver has to ask which life of the sender this is. It asks by its own clock: a sender that speaks to a stranger
 /// only now and then has few occasions to be asked.
 #[test]

@@ -177,7 +177,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "send(to: RobotId, message: Message) -> Int",
                 Effect,
-                "Sends a message to one other robot; returns the message's number.",
+                "Sends a message to one robot; returns the message's number.",
             ),
             member(
                 "outstanding(number: Int) -> Bool",
