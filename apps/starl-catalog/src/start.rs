@@ -8,6 +8,7 @@ use crate::language::{Findings, Programs};
 use crate::programs::Registry;
 use starl_core::{Program, RobotId};
 use starl_lang::diagnostic::Colour;
+use starl_lang::robot::Code;
 use starl_sim::engine::{Complaint, StartError};
 use starl_sim::read::{self, Loader, Problem, Problems, Request, Resolved};
 use starl_sim::scenario::{Fleet, Goal, Group};
@@ -106,6 +107,12 @@ impl Application {
     /// The programs in Rust that it may name.
     pub fn registry(&self) -> &Registry {
         &self.registry
+    }
+
+    /// The code of a robot's program; none if the program is not in the StarL language.
+    pub fn code_of(&self, robot: RobotId) -> Option<&Code> {
+        let (group, _) = self.scenario().fleet.group_of(robot)?;
+        self.programs.code(group)
     }
 
     /// The warnings of the compiler.

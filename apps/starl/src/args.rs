@@ -285,6 +285,8 @@ pub enum FleetCommand {
     Up(FleetUpArguments),
     /// Show the robots that are alive, with their positions, states and link qualities
     Status(FleetStatusArguments),
+    /// Send an operator's order to the programs of robots
+    Tell(FleetTellArguments),
     /// Stop the motors of all robots at once, and then the robots
     Stop(FleetStopArguments),
     /// Join the robots' traces on one time axis
@@ -331,6 +333,21 @@ pub struct FleetStatusArguments {
     /// Print a list in JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `starl fleet tell`.
+#[derive(Args, Debug)]
+pub struct FleetTellArguments {
+    /// The fleet file
+    pub fleet: PathBuf,
+    /// The name of the order, as in `on input NAME(...)`
+    pub order: String,
+    /// The fields of the order, with values as in a scenario's `fields`, e.g. 'to=[1.5, 2]'
+    #[arg(value_name = "FIELD=VALUE")]
+    pub fields: Vec<String>,
+    /// Send it to these robots only
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub robots: Option<Vec<String>>,
 }
 
 /// Arguments of `starl fleet stop`.

@@ -1,4 +1,4 @@
-//! An operator's end of the link: asks robots how they are, and stops them.
+//! An operator's end of the link: asks robots how they are, sends orders to their programs, and stops them.
 
 use crate::WallClock;
 use crate::link::channel::Opened;
@@ -24,6 +24,8 @@ pub struct Operator {
     robots: Vec<Member>,
     /// When robots were last informed that they are watched.
     watched: Option<Instant>,
+    /// The number of the last order.
+    orders: u32,
 }
 
 /// A number for an operator that no other operator has, most likely.
@@ -50,6 +52,7 @@ impl Operator {
             clock: WallClock::since(WallClock::system()),
             robots,
             watched: None,
+            orders: 0,
         }
     }
 
@@ -70,11 +73,12 @@ impl Operator {
         answers.into_keys().collect()
     }
 
-    /// Sends an order to the program of a robot. It is not retransmitted, so the datagram may be lost.
-    pub fn order(&mut self, robot: Member, order: Order, patience: Duration) -> bool {
-        // The session has to stand first.
-        self.question(&[robot], &Frame::Ask, patience);
-        self.send(robot, &Frame::Order(order))
+    /// Sends an order to the programs of robots, each of which receives it at most once. Returns the robots whose
+    /// programs have received it.
+    pub fn order(&mut self, robots: &[Member], order: Order, patience: Duration) -> Vec<Member> {
+        self.orders += 1;
+        let answers = self.question(robots, &Frame::Order(self.orders, order), patience);
+        answers.into_keys().collect()
     }
 
     /// Requests the events of all robots, and returns those that arrive until `end`: the robot, the time of arrival,
@@ -127,6 +131,7 @@ impl Operator {
             {
                 let is_answer = match question {
                     Frame::Halt => matches!(frame, Frame::Halted),
+                    Frame::Order(number, _) => frame == Frame::Ordered(*number),
                     _ => matches!(frame, Frame::Status(_)),
                 };
                 if is_answer && robots.contains(&from) {

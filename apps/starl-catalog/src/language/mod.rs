@@ -77,8 +77,7 @@ impl Programs {
     /// # Errors
     /// If the program does not take the parameters as they are.
     pub fn make(&self, group: &Group, fleet: &Fleet) -> Option<Result<RobotProgram, Complaint>> {
-        let compiled = self.0.get(&group.program)?;
-        Some(values::program(&compiled.code, group, fleet))
+        Some(values::program(self.code(group)?, group, fleet))
     }
 
     /// The monitors of the properties that the programs declare.
@@ -168,6 +167,11 @@ impl Programs {
                 .unwrap_or_default()),
             false => Ok(made.into_iter().flatten().collect()),
         }
+    }
+
+    /// The code of a group's program; none if the group names no program of this language.
+    pub fn code(&self, group: &Group) -> Option<&Code> {
+        Some(&self.0.get(&group.program)?.code)
     }
 
     /// The code of the programs.

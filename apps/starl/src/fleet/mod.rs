@@ -19,6 +19,7 @@ mod status;
 mod stop;
 #[cfg(feature = "web")]
 mod stream;
+mod tell;
 mod up;
 
 #[cfg(feature = "web")]
@@ -43,6 +44,7 @@ pub fn fleet(command: &FleetCommand, registry: &Registry) -> Result<bool, Failur
     match command {
         FleetCommand::Up(arguments) => up::up(arguments, registry),
         FleetCommand::Status(arguments) => status::show(arguments, registry),
+        FleetCommand::Tell(arguments) => tell::tell(arguments, registry),
         FleetCommand::Stop(arguments) => stop::stop(arguments, registry),
         FleetCommand::Merge(arguments) => merge::run(arguments, registry),
         FleetCommand::Key(arguments) => key::make(arguments),

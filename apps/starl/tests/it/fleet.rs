@@ -146,7 +146,7 @@ fn status_of(folder: &Path) -> Vec<Value> {
 }
 
 /// Asks until the fleet is as it is to be.
-fn wait_until(folder: &Path, is_so: impl Fn(&[Value]) -> bool) -> Vec<Value> {
+pub(crate) fn wait_until(folder: &Path, is_so: impl Fn(&[Value]) -> bool) -> Vec<Value> {
     let begun = Instant::now();
     loop {
         let status = status_of(folder);
@@ -157,7 +157,7 @@ fn wait_until(folder: &Path, is_so: impl Fn(&[Value]) -> bool) -> Vec<Value> {
     }
 }
 
-fn hear_each_other(status: &[Value]) -> bool {
+pub(crate) fn hear_each_other(status: &[Value]) -> bool {
     let hears = |robot: &Value| {
         robot["links"][0]["heard_ago"]
             .as_f64()

@@ -15,6 +15,8 @@ mod first_program;
 mod fleet;
 #[cfg(all(unix, feature = "zenoh"))]
 mod fleet_certificates;
+#[cfg(feature = "fleet")]
+mod fleet_orders;
 mod format_programs;
 mod interrupted_run;
 mod json_report;

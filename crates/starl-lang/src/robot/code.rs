@@ -186,7 +186,7 @@ impl Code {
     }
 
     /// The inputs that the program handles.
-    pub(super) fn orders(&self) -> &Orders {
+    pub fn orders(&self) -> &Orders {
         &self.0.orders
     }
 

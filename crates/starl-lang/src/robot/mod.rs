@@ -40,6 +40,7 @@ mod workbench;
 pub use code::Code;
 pub use failure::Failure;
 pub use inspection::{ActionState, PrimitiveState, VariableState};
+pub use orders::{Orders, WrongField};
 pub use parameter::ParameterError;
 pub use program::RobotProgram;
 

@@ -66,6 +66,11 @@ impl Orders {
         Some(orders)
     }
 
+    /// The names of the inputs.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|known| known.name.as_str())
+    }
+
     /// The arguments of the order's handlers; `None` if it has no handler.
     ///
     /// # Errors

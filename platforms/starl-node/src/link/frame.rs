@@ -28,8 +28,10 @@ pub enum Frame {
     Halt,
     /// The answer: the motors received the command to stop.
     Halted,
-    /// An operator's order to the program.
-    Order(starl_core::Order),
+    /// An operator's order to the program, with the operator's number for it.
+    Order(u32, starl_core::Order),
+    /// The answer to the order of this number, from a robot whose program runs: the program received it.
+    Ordered(u32),
     /// An operator requests the events of a robot for the next few seconds.
     Watch,
     /// The answer, several times a second.

@@ -5,8 +5,8 @@ use super::mailbox::Incoming;
 use super::watch::Watched;
 use crate::Reading;
 use crate::discovery::Discovery;
-use crate::link::Channel;
 use crate::link::quality::Quality;
+use crate::link::{Channel, Member};
 use crate::localise::Localiser;
 use crate::motors::Report;
 use crate::outlet::RuntimeOutlet;
@@ -65,6 +65,8 @@ pub struct Core<R: Recorder, E: Equipment> {
     pub(super) stand: (Point, Time),
     pub(super) link_heard: Time,
     pub(super) failure: Option<String>,
+    /// The latest orders of operators, by operator and its number for the order; the last one first.
+    pub(super) orders: Vec<(Member, u32)>,
     /// Until when the robot, stopped by an operator, still answers.
     pub(super) leaving: Option<Time>,
     is_over: bool,
@@ -123,6 +125,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             stand: (Point::ZERO, now),
             link_heard: now,
             failure: None,
+            orders: Vec::new(),
             leaving: None,
             is_over: false,
             setup,

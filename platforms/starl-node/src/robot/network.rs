@@ -8,7 +8,7 @@ use crate::link::frame::{Frame, Seen, Status};
 use crate::link::{Arrival, Member, OPERATORS};
 use crate::recorder::Recorder;
 use starl_core::event::DropReason;
-use starl_core::{Destination, Duration, Event, Message, RobotId};
+use starl_core::{Destination, Duration, Event, Input, Intervention, Message, Order, RobotId};
 use starl_host::{Datagram, NodeInput};
 
 /// A robot that was stopped answers for so long, since its confirmation may be lost.
@@ -36,6 +36,9 @@ const EASING: u64 = 10;
 
 /// Until all have heard this robot, they miss rounds for at most this time altogether.
 const LONGEST_EASING: Duration = Duration::from_millis(6000);
+
+/// The number of the latest orders that are remembered, so that copies of them are recognised. An operator repeats an order for a few seconds.
+const MOST_ORDERS: usize = 64;
 
 /// A robot of so large a fleet hears each other one at least this often, unless beacons are lost.
 pub fn longest_silence(robots: usize) -> Duration {
@@ -102,11 +105,28 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
                 self.send(from, &status);
             }
             Frame::Watch if from >= OPERATORS => self.recorder.watch(self.now, from),
-            Frame::Order(order) if from >= OPERATORS => {
-                self.handle(NodeInput::Input(starl_core::Input::Order(order)));
-            }
+            Frame::Order(number, order) if from >= OPERATORS => self.obey(from, number, order),
             _ => {}
         }
+    }
+
+    /// Passes an operator's order to the program, if it runs and this is no copy.
+    fn obey(&mut self, from: Member, number: u32, order: Order) {
+        if !self.node.condition().started || !self.node.runs() {
+            return;
+        }
+        if !self.orders.contains(&(from, number)) {
+            self.orders.truncate(MOST_ORDERS - 1);
+            self.orders.insert(0, (from, number));
+            let told = Intervention::Tell {
+                robots: vec![self.setup.id],
+                order: order.clone(),
+            };
+            let told = Event::Intervention(Box::new(told));
+            self.recorder.record(self.now, told);
+            self.handle(NodeInput::Input(Input::Order(order)));
+        }
+        self.send(from, &Frame::Ordered(number));
     }
 
     fn notice_peer(&mut self, from: Member, beacon: &Beacon) {

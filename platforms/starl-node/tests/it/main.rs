@@ -4,5 +4,6 @@ mod beacons;
 mod conforms;
 mod hidden_obstacles;
 mod last_events;
+mod orders;
 mod poses_on_record;
 mod support;
