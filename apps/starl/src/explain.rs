@@ -9,8 +9,8 @@ use crate::outputs::refuse_to_overwrite;
 use crate::sources::{self, Source};
 use crate::target::no_example;
 use starl_catalog::examples;
+use starl_editor::explain::StateMachine;
 use starl_lang::diagnostic::Code;
-use starl_lang::explain::StateMachine;
 use std::path::{Path, PathBuf};
 
 /// Draws a program, or shows the page of a code. False if the program has errors, which are printed.

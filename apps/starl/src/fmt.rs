@@ -8,8 +8,9 @@ use crate::failure::Failure;
 use crate::output::Output;
 use crate::sources::{self, Source};
 use starl_catalog::disk::reason;
+use starl_editor::format::format_parse;
 use starl_lang::diagnostic::{has_errors, render};
-use starl_lang::{format, syntax};
+use starl_lang::syntax;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::Path;
@@ -51,7 +52,7 @@ fn one(source: &Source, only_check: bool) -> Result<Outcome, Failure> {
         console::error(&format!("{name}: has errors, and is left as it is"));
         return Ok(Outcome::Broken);
     }
-    let formatted = format::format_parse(&parse);
+    let formatted = format_parse(&parse);
     let is_same = formatted == text;
     match source {
         Source::Input if !only_check => console::print(&formatted)?,

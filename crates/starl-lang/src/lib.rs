@@ -8,8 +8,7 @@
     doc = "
 A program is read by [`syntax`] into a tree that holds every character of the source, and a problem anywhere
 is a [`diagnostic`]; reading never fails. [`check`] resolves names and types and gives the [`ir`], from which
-[`compile`] makes bytecode. [`format`] lays a program out anew, [`explain`] draws it as a state machine, and
-[`editor`] is what editors ask while one writes it."
+[`compile`] makes bytecode. Tools for authors of programs are in the crate `starl-editor`."
 )]
 #![no_std]
 
@@ -23,12 +22,6 @@ pub mod check;
 pub mod compile;
 #[cfg(feature = "compiler")]
 pub mod diagnostic;
-#[cfg(feature = "compiler")]
-pub mod editor;
-#[cfg(feature = "compiler")]
-pub mod explain;
-#[cfg(feature = "compiler")]
-pub mod format;
 #[cfg(feature = "compiler")]
 pub mod ir;
 pub mod machine;

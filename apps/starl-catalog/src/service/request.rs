@@ -3,7 +3,7 @@
 use crate::session::{Breakpoint, Files, Options, Recorded};
 use serde::Deserialize;
 use starl_core::{Duration, Intervention, RobotId, Time};
-use starl_lang::editor::Utf16Position;
+use starl_editor::Utf16Position;
 use std::collections::BTreeMap;
 use thiserror::Error;
 

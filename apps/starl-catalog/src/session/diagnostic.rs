@@ -5,8 +5,8 @@ use crate::Refusal;
 use crate::language::{Findings, SUFFIX};
 use crate::programs::Registry;
 use serde::Serialize;
+use starl_editor::Analysis;
 use starl_lang::diagnostic::{LineIndex, Severity, Span};
-use starl_lang::editor::Analysis;
 use starl_sim::read::{Place, Problem, Request, Source};
 
 /// The ending of scenarios' names.

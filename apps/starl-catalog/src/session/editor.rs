@@ -1,16 +1,16 @@
-//! An editor's view of programs among files in memory. The information comes from [`starl_lang::editor`],
+//! An editor's view of programs among files in memory. The information comes from [`starl_editor`],
 //! like that of the language server.
 
 use super::Refused;
 use super::files::{Beside, Files};
 use crate::language::SUFFIX;
 use serde::Serialize;
-use starl_lang::diagnostic::Span;
-use starl_lang::editor::{
-    self, Analysis, BUILT_IN, CompletionKind, Insertion, OutlineEntry, OutlineKind, Utf16Lines,
+use starl_editor::format::format;
+use starl_editor::{
+    Analysis, BUILT_IN, CompletionKind, Insertion, OutlineEntry, OutlineKind, Utf16Lines,
     Utf16Position, Utf16Range,
 };
-use starl_lang::format::format;
+use starl_lang::diagnostic::Span;
 
 /// The information at a position.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -107,7 +107,7 @@ impl<'a> Document<'a> {
 
     /// The completions at a position, the likeliest first.
     pub fn complete(&self, at: Utf16Position) -> Vec<Completion> {
-        let found = editor::completions(self.text, self.offset(at), &self.beside());
+        let found = starl_editor::completions(self.text, self.offset(at), &self.beside());
         let range = self.range(found.span);
         let items = found.items.into_iter().map(|item| {
             let Insertion { text, cursor } = item.insertion(found.has_brackets);
@@ -146,7 +146,7 @@ impl<'a> Document<'a> {
 
     /// The parts of the text, in its order.
     pub fn outline(&self) -> Vec<Part> {
-        let entries = editor::outline(&starl_lang::syntax::parse(self.text));
+        let entries = starl_editor::outline(&starl_lang::syntax::parse(self.text));
         entries.into_iter().map(|entry| self.part(entry)).collect()
     }
 

@@ -5,8 +5,8 @@
 use crate::examples::{self, Example};
 use crate::language::SUFFIX;
 use starl_core::{FileError, file};
+use starl_editor::is_library;
 use starl_lang::check::{Libraries, StandardLibraries};
-use starl_lang::editor::is_library;
 use starl_sim::read::Loader;
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -170,7 +170,7 @@ fn a_text_is_formatted_as_by_the_command() {
         &mut Service::default(),
         &json!({"format": {"text": untidy}}),
     );
-    assert_eq!(formatted, Ok(json!(starl_lang::format::format(&untidy))));
+    assert_eq!(formatted, Ok(json!(starl_editor::format::format(&untidy))));
     assert!(formatted.is_ok_and(|text| text.to_string().contains("count: Int = 0")));
 }
 

@@ -12,8 +12,8 @@ use lsp_types::{
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use starl_editor::BUILT_IN;
 use starl_lang::check::{Libraries, PRELUDE, StandardLibraries};
-use starl_lang::editor::BUILT_IN;
 use std::rc::Rc;
 
 /// The request for a text that is part of the command.

@@ -7,7 +7,7 @@ use lsp_types::{
     HoverContents, InsertTextFormat, MarkupContent, MarkupKind, ParameterInformation,
     ParameterLabel, Position, SignatureHelp, SignatureInformation, TextEdit,
 };
-use starl_lang::editor::{self, Completion, CompletionKind, Insertion};
+use starl_editor::{Completion, CompletionKind, Insertion};
 
 /// The information at a position.
 pub fn hover(checked: &Checked, position: Position) -> Option<Hover> {
@@ -65,7 +65,7 @@ pub fn completions(
     let source = checked.analysis.text();
     let text = Text::new(source);
     let libraries = documents.libraries(&checked.uri);
-    let found = editor::completions(source, text.offset(position), &libraries);
+    let found = starl_editor::completions(source, text.offset(position), &libraries);
     let range = text.range(found.span);
     let has_brackets = found.has_brackets;
     let items = found.items.into_iter().enumerate().map(|(number, item)| {

@@ -1,8 +1,8 @@
 //! From the language's places and kinds to those of the protocol.
 
 use lsp_types::{Position, Range, TextEdit};
+use starl_editor::{Utf16Lines, Utf16Position};
 use starl_lang::diagnostic::{Edit, Span};
-use starl_lang::editor::{Utf16Lines, Utf16Position};
 
 /// A text with its lines.
 pub struct Text<'a> {

@@ -1,6 +1,6 @@
 //! `starl lsp`: a server for editors, over the Language Server Protocol 3.17 on standard input and output.
 //!
-//! The information comes from [`starl_lang::editor`]; this module contains only the protocol, the open
+//! The information comes from [`starl_editor`]; this module contains only the protocol, the open
 //! texts, and the files beside them. A text is checked when its check is requested, and after every change
 //! once no message is waiting, so that problems appear as you type. Only `exit` and the end of the input
 //! end the server: messages that cannot be understood are answered with an error.

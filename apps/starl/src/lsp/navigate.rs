@@ -3,8 +3,8 @@
 use super::convert::Text;
 use super::documents::{Checked, Documents};
 use lsp_types::{DocumentHighlight, Location, Position, Uri};
+use starl_editor::{BUILT_IN, Occurrence};
 use starl_lang::check::Symbol;
-use starl_lang::editor::{BUILT_IN, Occurrence};
 use starl_lang::ir::Site;
 use std::collections::BTreeMap;
 use std::path::PathBuf;

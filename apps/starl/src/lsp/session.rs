@@ -13,7 +13,7 @@ use lsp_types::{
     TextDocumentContentChangeEvent,
 };
 use serde_json::{Value, json};
-use starl_lang::editor::replaced;
+use starl_editor::replaced;
 use std::io;
 use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};

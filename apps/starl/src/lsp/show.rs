@@ -6,12 +6,12 @@ use lsp_types::{
     DocumentSymbol, FoldingRange, Range, SemanticToken, SemanticTokenModifier, SemanticTokenType,
     SymbolKind, TextEdit,
 };
-use starl_lang::editor::{self, OutlineEntry, OutlineKind, TokenKind, TokenModifiers};
+use starl_editor::{OutlineEntry, OutlineKind, TokenKind, TokenModifiers};
 
 /// The outline of a text.
 pub fn outline(checked: &Checked) -> Vec<DocumentSymbol> {
     let text = Text::new(checked.analysis.text());
-    let entries = editor::outline(&checked.analysis.checked.files[0].parse);
+    let entries = starl_editor::outline(&checked.analysis.checked.files[0].parse);
     entries.iter().map(|entry| symbol(entry, &text)).collect()
 }
 
@@ -51,7 +51,7 @@ fn symbol_kind(kind: OutlineKind) -> SymbolKind {
 /// The parts of a text that can be folded: declarations of more than a line.
 pub fn folds(checked: &Checked) -> Vec<FoldingRange> {
     let text = Text::new(checked.analysis.text());
-    let mut open = editor::outline(&checked.analysis.checked.files[0].parse);
+    let mut open = starl_editor::outline(&checked.analysis.checked.files[0].parse);
     let mut folds = Vec::new();
     while let Some(entry) = open.pop() {
         let range = text.range(entry.span);
@@ -108,7 +108,7 @@ pub fn tokens(checked: &Checked, part: Option<Range>) -> Vec<SemanticToken> {
     let text = Text::new(checked.analysis.text());
     let (mut line, mut start) = (0, 0);
     let mut tokens = Vec::new();
-    for token in editor::tokens(&checked.analysis) {
+    for token in starl_editor::tokens(&checked.analysis) {
         let range = text.range(token.span);
         if part.is_some_and(|part| range.end < part.start || part.end < range.start) {
             continue;
@@ -146,6 +146,6 @@ fn bits(modifiers: TokenModifiers) -> u32 {
 pub fn layout(checked: &Checked) -> Vec<TextEdit> {
     let source = checked.analysis.text();
     let text = Text::new(source);
-    let edits = editor::layout(source);
+    let edits = starl_editor::layout(source);
     edits.iter().map(|edit| text.edit(edit)).collect()
 }

@@ -2,9 +2,9 @@
 
 use crate::support::*;
 
-const DOOR: &str = include_str!("../../../../crates/starl-lang/tests/listings/door.starl");
-const MERMAID: &str = include_str!("../../../../crates/starl-lang/tests/listings/door.mmd");
-const DOT: &str = include_str!("../../../../crates/starl-lang/tests/listings/door.dot");
+const DOOR: &str = include_str!("../../../../crates/starl-editor/tests/drawings/door.starl");
+const MERMAID: &str = include_str!("../../../../crates/starl-editor/tests/drawings/door.mmd");
+const DOT: &str = include_str!("../../../../crates/starl-editor/tests/drawings/door.dot");
 
 #[test]
 fn a_program_is_drawn_for_mermaid_or_graphviz() {

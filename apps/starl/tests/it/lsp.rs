@@ -316,7 +316,7 @@ fn a_text_is_formatted() {
         .ask("textDocument/formatting", params)
         .expect("an answer");
     let tidy = applied(&untidy, &edits);
-    assert_eq!(tidy, starl_lang::format::format(&untidy));
+    assert_eq!(tidy, starl_editor::format::format(&untidy));
     assert!(
         tidy.contains("    pre loc == init and not motion.active\n    eff\n"),
         "{tidy}"

@@ -56,9 +56,7 @@ impl Checker {
         if truth(&action.guard, None) == Some(false) {
             return Some(problem());
         }
-        let mut variables = BTreeSet::new();
-        finite_variables(&action.guard, &mut variables);
-        for variable in variables {
+        for variable in finite_variables(&action.guard) {
             let Some(entered) = control.entered.get(&variable) else {
                 continue;
             };

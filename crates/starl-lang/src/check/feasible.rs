@@ -5,15 +5,11 @@ use alloc::collections::BTreeSet;
 use crate::ir::{Expression, ExpressionKind, Operator, Type, VariableId};
 
 /// An assumption: the value of a variable, as the number of an enum's variant, or 0 for false and 1 for true.
-pub(crate) type Assumption = Option<(VariableId, u16)>;
-
-/// Whether a type has such values.
-pub(crate) fn is_finite(ty: &Type) -> bool {
-    matches!(ty, Type::Enum(_) | Type::Bool)
-}
+pub type Assumption = Option<(VariableId, u16)>;
 
 /// Whether the condition holds; none if that depends on more than the assumption.
-pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool> {
+#[must_use]
+pub fn truth(condition: &Expression, assumed: Assumption) -> Option<bool> {
     match &condition.kind {
         ExpressionKind::Bool(value) => Some(*value),
         ExpressionKind::Variable(id) => value_of(*id, assumed).map(|value| value == 1),
@@ -72,18 +68,16 @@ fn value_of(variable: VariableId, assumed: Assumption) -> Option<u16> {
     (of == variable).then_some(value)
 }
 
-/// The variables with such values by which the condition decides.
-pub(crate) fn finite_variables(condition: &Expression, found: &mut BTreeSet<VariableId>) {
+/// The Bools and variables of enums by which the condition decides.
+#[must_use]
+pub fn finite_variables(condition: &Expression) -> BTreeSet<VariableId> {
     match &condition.kind {
-        ExpressionKind::Variable(id) if is_finite(&condition.ty) => {
-            found.insert(*id);
-        }
-        ExpressionKind::Not(inner) => finite_variables(inner, found),
+        ExpressionKind::Variable(id) if condition.ty.is_finite() => BTreeSet::from([*id]),
+        ExpressionKind::Not(inner) => finite_variables(inner),
         ExpressionKind::Binary { left, right, .. } => {
-            finite_variables(left, found);
-            finite_variables(right, found);
+            &finite_variables(left) | &finite_variables(right)
         }
-        ExpressionKind::In { item, .. } => finite_variables(item, found),
-        _ => {}
+        ExpressionKind::In { item, .. } => finite_variables(item),
+        _ => BTreeSet::new(),
     }
 }

@@ -5,13 +5,13 @@
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
-use super::feasible::{Assumption, is_finite, truth};
+use super::feasible::{Assumption, truth};
 use super::tables::Builtin;
 use crate::ir::*;
 
 /// The effect of some statements.
-#[derive(Default)]
-pub(crate) struct Transitions {
+#[derive(Clone, Debug, Default)]
+pub struct Transitions {
     /// The values given to the variables that they write.
     pub given: BTreeMap<VariableId, Given>,
     /// They may say that the program is at its end, has failed, or that the robot is to stop.
@@ -21,8 +21,8 @@ pub(crate) struct Transitions {
 }
 
 /// The values given to a variable.
-#[derive(Clone, Default)]
-pub(crate) struct Given {
+#[derive(Clone, Debug, Default)]
+pub struct Given {
     /// The values that it may get.
     pub values: BTreeSet<u16>,
     /// It may get one that cannot be determined.
@@ -33,11 +33,13 @@ pub(crate) struct Given {
 
 impl Transitions {
     /// The effect of the statements for any values of the variables before.
+    #[must_use]
     pub fn of(statements: &[Statement], program: &Program) -> Self {
         Self::assuming(statements, program, None)
     }
 
     /// The effect of the statements if a variable has this value before.
+    #[must_use]
     pub fn assuming(statements: &[Statement], program: &Program, assumed: Assumption) -> Self {
         let mut walk = Walk {
             program,
@@ -86,7 +88,7 @@ impl Walk<'_> {
         match &statement.kind {
             StatementKind::Assign { place, value } => {
                 if let Root::Variable(id) = &place.root
-                    && is_finite(&value.ty)
+                    && value.ty.is_finite()
                     && place.path.is_empty()
                 {
                     let given = self.value(value, &ways);
@@ -265,7 +267,8 @@ fn joined(mut some: Ways, others: Ways) -> Ways {
 }
 
 /// The first values of Bools and variables of enums; the scenario may give any role.
-pub(crate) fn first_values(program: &Program) -> BTreeMap<VariableId, Given> {
+#[must_use]
+pub fn first_values(program: &Program) -> BTreeMap<VariableId, Given> {
     let mut first: BTreeMap<VariableId, Given> = BTreeMap::new();
     let walk = Walk {
         program,
@@ -276,7 +279,7 @@ pub(crate) fn first_values(program: &Program) -> BTreeMap<VariableId, Given> {
         done: Transitions::default(),
     };
     for (number, variable) in program.variables.iter().enumerate() {
-        if !is_finite(&variable.ty) {
+        if !variable.ty.is_finite() {
             continue;
         }
         let own = VariableId(number as u32);

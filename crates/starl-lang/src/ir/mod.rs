@@ -91,7 +91,8 @@ impl Program {
     }
 
     /// The names of the values of a variable: the variants of its enum, or false and true; of any other type none.
-    pub(crate) fn values_of(&self, variable: VariableId) -> Vec<&str> {
+    #[must_use]
+    pub fn values_of(&self, variable: VariableId) -> Vec<&str> {
         match self[variable].ty {
             Type::Enum(of) => (self[of].variants.iter())
                 .map(|variant| variant.name.as_str())

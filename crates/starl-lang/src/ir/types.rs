@@ -50,6 +50,12 @@ pub enum Type {
 }
 
 impl Type {
+    /// Whether it is an enum or Bool, whose few values the checker can follow ([`crate::check::feasible`]).
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        matches!(self, Self::Enum(_) | Self::Bool)
+    }
+
     /// The type with this name that every program has.
     #[must_use]
     pub fn built_in(name: &str) -> Option<Self> {

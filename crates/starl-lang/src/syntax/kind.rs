@@ -186,7 +186,8 @@ impl SyntaxKind {
     }
 
     /// The keyword that is spelt so.
-    pub(crate) fn keyword(word: &str) -> Option<Self> {
+    #[must_use]
+    pub fn keyword(word: &str) -> Option<Self> {
         let keywords = &Self::ALL[Self::AndKeyword as usize..=Self::OnKeyword as usize];
         keywords
             .iter()

@@ -96,7 +96,7 @@ fn they_mean_the_same_with_all_parentheses() {
 }
 
 #[test]
-fn they_mean_the_same_in_any_layout_and_formatted() {
+fn they_mean_the_same_in_any_layout() {
     each(5, 300, |bytes| {
         let text = generate::program(bytes);
         if let Some((_, bytecode)) = hold::compiled(&text) {

@@ -1,10 +1,11 @@
-//! Common code of the language's tests: example programs, and the properties of any text.
+//! Common code of the tests of the language and of its tools: example programs, and the properties of any text.
 
+pub mod deep;
 pub mod generator;
 pub mod mutation;
 
 use starl_lang::diagnostic::{Code, Severity, has_errors};
-use starl_lang::syntax::{Parse, SyntaxKind, SyntaxToken, parse};
+use starl_lang::syntax::{Parse, SyntaxKind, parse};
 
 /// The thesis's four listings, by name.
 pub const LISTINGS: &[(&str, &str)] = &[
@@ -73,43 +74,4 @@ pub fn is_wrong(parse: &Parse) -> bool {
     parse.diagnostics().iter().any(|diagnostic| {
         diagnostic.severity() == Severity::Error && diagnostic.code != Code::TabIndentation
     })
-}
-
-/// The tokens without white space, each with its text, comments without spaces at their ends.
-pub fn tokens(parse: &Parse) -> Vec<(SyntaxKind, String)> {
-    let tokens = parse
-        .syntax()
-        .descendants_with_tokens()
-        .filter_map(|element| element.into_token());
-    let matters = |token: &SyntaxToken| {
-        !matches!(
-            token.kind(),
-            SyntaxKind::Whitespace | SyntaxKind::LineBreak | SyntaxKind::Newline
-        )
-    };
-    let text = |token: SyntaxToken| {
-        (
-            token.kind(),
-            token.text().trim_end_matches([' ', '\t', '\r']).to_string(),
-        )
-    };
-    tokens.filter(matters).map(text).collect()
-}
-
-/// The shape of the tree: nodes and tokens by kind, without trivia and line ends.
-pub fn shape(parse: &Parse) -> String {
-    let mut shape = String::new();
-    for event in parse.syntax().preorder_with_tokens() {
-        match event {
-            rowan::WalkEvent::Enter(element) => match element.kind() {
-                kind if kind.is_trivia() || kind == SyntaxKind::Newline => {}
-                kind => shape += &format!("({kind:?} "),
-            },
-            rowan::WalkEvent::Leave(element) => match element.kind() {
-                kind if kind.is_trivia() || kind == SyntaxKind::Newline => {}
-                _ => shape.push(')'),
-            },
-        }
-    }
-    shape
 }

@@ -201,7 +201,6 @@ pub fn program(code: &Code) -> RobotProgram {
 }
 
 /// A program from its source text.
-#[cfg(feature = "compiler")]
 pub fn compile(source: &str) -> Code {
     use starl_lang::check::{NoLibraries, check};
     let checked = check(source, &NoLibraries);

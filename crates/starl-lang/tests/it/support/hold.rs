@@ -1,14 +1,12 @@
 //! Properties that must hold for every generated program, whatever its bytes.
 
 use super::compare::{Compared, compare};
-use super::generate::{Choices, layout, program, program_with_parentheses};
+use super::generate::{layout, program, program_with_parentheses};
 use super::run;
 use starl_lang::check::{Checked, StandardLibraries, check};
 use starl_lang::compile::compile;
 use starl_lang::diagnostic::{Colour, Diagnostic, has_errors, render};
-use starl_lang::format::format;
 use starl_lang::machine::{Bytecode, assemble, disassemble};
-use starl_lang::syntax::{SyntaxKind, parse};
 
 /// Everything.
 #[allow(dead_code, reason = "the fuzz targets use it")]
@@ -77,29 +75,11 @@ pub fn needs_no_parentheses(bytes: &[u8], bytecode: &Bytecode) {
     same(bytecode, &other, &text);
 }
 
-/// Layout changes nothing, and formatting settles at once and keeps all comments.
+/// Layout changes nothing.
 pub fn has_any_layout(bytes: &[u8], text: &str, bytecode: &Bytecode) {
-    let mut choices = Choices::new(bytes);
-    // Other choices than those that made the beginning of the program.
-    for _ in 0..bytes.len() / 3 {
-        choices.below(2);
-    }
-    let other = layout::other(text, &mut choices);
+    let other = layout::other(text, bytes);
     let (_, made) = compiled(&other).expect("it was compiled in another layout");
     same(bytecode, &made, &other);
-    let formatted = format(&other);
-    assert_eq!(
-        format(&formatted),
-        formatted,
-        "formatting again changes\n{formatted}"
-    );
-    assert_eq!(
-        words(&formatted),
-        words(&other),
-        "formatting\n{other}\ngives\n{formatted}"
-    );
-    let (_, made) = compiled(&formatted).expect("it was compiled before it was formatted");
-    same(bytecode, &made, &formatted);
 }
 
 /// Whether the code is the same, wherever in the text it comes from.
@@ -117,22 +97,4 @@ fn same(left: &Bytecode, right: &Bytecode, text: &str) {
         disassemble(&right),
         disassemble(&left)
     );
-}
-
-/// All words and comments.
-fn words(text: &str) -> Vec<String> {
-    let space = [
-        SyntaxKind::Whitespace,
-        SyntaxKind::LineBreak,
-        SyntaxKind::Newline,
-    ];
-    let parsed = parse(text);
-    let tokens = parsed
-        .syntax()
-        .descendants_with_tokens()
-        .filter_map(|one| one.into_token());
-    let words = tokens.filter(|token| !space.contains(&token.kind()));
-    words
-        .map(|token| token.text().trim_end().to_string())
-        .collect()
 }

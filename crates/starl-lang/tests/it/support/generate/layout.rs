@@ -9,10 +9,15 @@ const OPERATORS: &[&str] = &[
     "+", "*", "/", "%", "==", "!=", "<", "<=", ">", ">=", "and", "or", "??", ",",
 ];
 
-/// The program, with white space and line breaks that these choices determine.
-pub fn other(text: &str, choices: &mut Choices<'_>) -> String {
+/// The program that these bytes made, with white space and line breaks that the bytes determine.
+pub fn other(text: &str, bytes: &[u8]) -> String {
+    let mut choices = Choices::new(bytes);
+    // Other choices than those that made the beginning of the program.
+    for _ in 0..bytes.len() / 3 {
+        choices.below(2);
+    }
     let mut layout = Layout {
-        choices,
+        choices: &mut choices,
         text: String::new(),
         columns: vec![0],
         column: 0,

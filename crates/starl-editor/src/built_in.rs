@@ -1,0 +1,117 @@
+//! Descriptions of built-in names.
+
+use crate::description::Description;
+use starl_lang::check::{PRIMITIVES, Symbol};
+
+/// Built-in types with their documentation.
+pub(crate) const TYPES: &[(&str, &str, &str)] = &[
+    ("Bool", "Bool", "`true` or `false`."),
+    (
+        "Int",
+        "Int",
+        "A whole number of 64 bits; overflow is a run-time error.",
+    ),
+    (
+        "Float",
+        "Float",
+        "A number with a fraction; lengths are in metres, angles in radians.",
+    ),
+    ("String", "String", "A text."),
+    (
+        "Point",
+        "Point",
+        "A position or a vector: `x`, `y` and `z`, metres.",
+    ),
+    ("Time", "Time", "A time on this robot's clock."),
+    (
+        "Duration",
+        "Duration",
+        "A time span, such as `500ms`; never negative.",
+    ),
+    ("RobotId", "RobotId", "A robot of the fleet."),
+    ("Area", "Area", "A part of the floor plane."),
+    ("Obstacles", "Obstacles", "A set of obstacles."),
+    ("List", "List[T]", "Elements in order, by index from 0."),
+    ("Set", "Set[T]", "Distinct elements, in ascending order."),
+    (
+        "Map",
+        "Map[K, V]",
+        "A value for each key, in ascending order of the keys.",
+    ),
+];
+
+/// The attributes that properties may read of every robot.
+pub(crate) const ROBOT_MEMBERS: &[(&str, &str, &str)] = &[
+    (
+        "position",
+        "position: Point",
+        "The position of the robot, metres: the true one if the host knows it.",
+    ),
+    (
+        "heading",
+        "heading: Float",
+        "The heading of the robot, radians from the x axis.",
+    ),
+    (
+        "velocity",
+        "velocity: Point",
+        "The velocity of the robot, metres per second.",
+    ),
+    (
+        "finished",
+        "finished: Bool",
+        "Whether the robot's program has declared that it reached its goal.",
+    ),
+    (
+        "up",
+        "up: Bool",
+        "Whether the robot is running and has not crashed.",
+    ),
+    ("id", "id: RobotId", "The robot's number."),
+];
+
+/// The description of a built-in name.
+pub(crate) fn built_in(symbol: Symbol) -> Description {
+    let of_table = |table: &[(&str, &str, &str)], name: &str| {
+        let found = table.iter().find(|(own, ..)| *own == name);
+        found.map_or(Description::default(), |(_, signature, documentation)| {
+            Description::new(*signature, *documentation)
+        })
+    };
+    match symbol {
+        Symbol::Builtin(builtin) => Description::new(builtin.text(), builtin.documentation()),
+        Symbol::Type(name) => of_table(TYPES, name),
+        Symbol::Method(method) => Description::new(method.text(), method.documentation()),
+        Symbol::Primitive(number) => {
+            let primitive = &PRIMITIVES[number];
+            Description::new(primitive.constructor, primitive.documentation)
+        }
+        Symbol::Member(primitive, number) => {
+            let primitive = &PRIMITIVES[primitive];
+            let member = &primitive.members[number];
+            let text = format!("{}.{}", primitive.name(), member.text);
+            Description::new(text, member.documentation)
+        }
+        Symbol::Event(primitive, number) => {
+            let primitive = &PRIMITIVES[primitive];
+            let event = &primitive.events[number];
+            let text = format!("on {}.{}", primitive.name(), event.text);
+            Description::new(text, event.documentation)
+        }
+        Symbol::Coordinate(axis) => {
+            Description::new(format!("Point.{axis}: Float"), "A coordinate, metres.")
+        }
+        Symbol::Argument(signature, name) => argument(signature, name),
+        Symbol::RobotMember(name) => of_table(ROBOT_MEMBERS, name),
+        _ => Description::default(),
+    }
+}
+
+/// A parameter, by the signature that it is of.
+fn argument(signature: &str, name: &str) -> Description {
+    let inside = signature.split_once('(').map_or("", |(_, inside)| inside);
+    let is_own = |part: &&str| part.trim_start().starts_with(name);
+    let found = inside.split(", ").find(is_own).unwrap_or(name);
+    let text = found.split(')').next().unwrap_or(found);
+    Description::new(text.trim(), format!("`{signature}`"))
+}
