@@ -1,39 +1,40 @@
 //! Descriptions of built-in names.
 
 use crate::description::Description;
+use crate::words::{Word, word};
 use starl_lang::check::{PRIMITIVES, Symbol};
 
 /// Built-in types with their documentation.
-pub(crate) const TYPES: &[(&str, &str, &str)] = &[
-    ("Bool", "Bool", "`true` or `false`."),
-    (
+pub(crate) const TYPES: &[Word] = &[
+    word("Bool", "Bool", "`true` or `false`."),
+    word(
         "Int",
         "Int",
         "A whole number of 64 bits; overflow is a run-time error.",
     ),
-    (
+    word(
         "Float",
         "Float",
         "A number with a fraction; lengths are in metres, angles in radians.",
     ),
-    ("String", "String", "A text."),
-    (
+    word("String", "String", "A text."),
+    word(
         "Point",
         "Point",
         "A position or a vector: `x`, `y` and `z`, metres.",
     ),
-    ("Time", "Time", "A time on this robot's clock."),
-    (
+    word("Time", "Time", "A time on this robot's clock."),
+    word(
         "Duration",
         "Duration",
         "A time span, such as `500ms`; never negative.",
     ),
-    ("RobotId", "RobotId", "A robot of the fleet."),
-    ("Area", "Area", "A part of the floor plane."),
-    ("Obstacles", "Obstacles", "A set of obstacles."),
-    ("List", "List[T]", "Elements in order, by index from 0."),
-    ("Set", "Set[T]", "Distinct elements, in ascending order."),
-    (
+    word("RobotId", "RobotId", "A robot of the fleet."),
+    word("Area", "Area", "A part of the floor plane."),
+    word("Obstacles", "Obstacles", "A set of obstacles."),
+    word("List", "List[T]", "Elements in order, by index from 0."),
+    word("Set", "Set[T]", "Distinct elements, in ascending order."),
+    word(
         "Map",
         "Map[K, V]",
         "A value for each key, in ascending order of the keys.",
@@ -41,42 +42,40 @@ pub(crate) const TYPES: &[(&str, &str, &str)] = &[
 ];
 
 /// The attributes that properties may read of every robot.
-pub(crate) const ROBOT_MEMBERS: &[(&str, &str, &str)] = &[
-    (
+pub(crate) const ROBOT_MEMBERS: &[Word] = &[
+    word(
         "position",
         "position: Point",
         "The position of the robot, metres: the true one if the host knows it.",
     ),
-    (
+    word(
         "heading",
         "heading: Float",
         "The heading of the robot, radians from the x axis.",
     ),
-    (
+    word(
         "velocity",
         "velocity: Point",
         "The velocity of the robot, metres per second.",
     ),
-    (
+    word(
         "finished",
         "finished: Bool",
         "Whether the robot's program has declared that it reached its goal.",
     ),
-    (
+    word(
         "up",
         "up: Bool",
         "Whether the robot is running and has not crashed.",
     ),
-    ("id", "id: RobotId", "The robot's number."),
+    word("id", "id: RobotId", "The robot's number."),
 ];
 
 /// The description of a built-in name.
 pub(crate) fn built_in(symbol: Symbol) -> Description {
-    let of_table = |table: &[(&str, &str, &str)], name: &str| {
-        let found = table.iter().find(|(own, ..)| *own == name);
-        found.map_or(Description::default(), |(_, signature, documentation)| {
-            Description::new(*signature, *documentation)
-        })
+    let of_table = |table: &[Word], name: &str| {
+        let found = table.iter().find(|own| own.word == name);
+        found.map(Word::description).unwrap_or_default()
     };
     match symbol {
         Symbol::Builtin(builtin) => Description::new(builtin.text(), builtin.documentation()),

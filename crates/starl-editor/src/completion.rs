@@ -58,6 +58,18 @@ pub struct Insertion {
 }
 
 impl Completion {
+    /// A word without meaning or documentation, which is not called.
+    fn plain(label: impl Into<String>, detail: impl Into<String>, rank: u8) -> Self {
+        Self {
+            label: label.into(),
+            symbol: None,
+            detail: detail.into(),
+            documentation: String::new(),
+            call: Call::No,
+            rank,
+        }
+    }
+
     /// The text to insert; without brackets if the text has them already.
     #[must_use]
     pub fn insertion(&self, has_brackets: bool) -> Insertion {

@@ -27,21 +27,19 @@ pub(crate) fn describe(checked: &Checked, symbol: Symbol) -> Description {
         Symbol::Parameter(id) => {
             let found = &program[id];
             let text = format!("param {}: {}", found.name, typed(&found.ty));
-            let text = with_value(checked, with_range(checked, text, found.site), found.site);
-            Description::new(text, &*found.documentation)
+            let text = with_range(checked, text, found.site);
+            with_value(checked, text, found.site, &found.documentation)
         }
         Symbol::Constant(id) => {
             let found = &program[id];
             let text = format!("const {}: {}", found.name, typed(&found.ty));
-            let text = with_value(checked, text, found.site);
-            Description::new(text, &*found.documentation)
+            with_value(checked, text, found.site, &found.documentation)
         }
         Symbol::Variable(id) => {
             let found = &program[id];
             let stable = if found.is_stable { "stable " } else { "" };
             let text = format!("{stable}{}: {}", found.name, typed(&found.ty));
-            let text = with_value(checked, text, found.site);
-            Description::new(text, &*found.documentation)
+            with_value(checked, text, found.site, &found.documentation)
         }
         Symbol::Shared(id) => {
             let found = &program[id];
@@ -50,8 +48,7 @@ pub(crate) fn describe(checked: &Checked, symbol: Symbol) -> Description {
                 false => ("allwrite", ""),
             };
             let text = format!("{word} {}{index}: {}", found.name, typed(&found.ty));
-            let text = with_value(checked, text, found.site);
-            Description::new(text, &*found.documentation)
+            with_value(checked, text, found.site, &found.documentation)
         }
         Symbol::Binding(id) => binding(checked, id),
         Symbol::Function(id) => {
@@ -135,8 +132,7 @@ fn field(checked: &Checked, id: RecordId, number: u32) -> Description {
     let of = checked.program.type_name(&Type::Record(id));
     let ty = checked.program.type_name(&field.ty);
     let text = format!("{of}.{}: {ty}", field.name);
-    let node = node_at(checked, field.site).filter(|_| !record.is_tuple());
-    let node = node.and_then(|node| node.ancestors().find_map(ast::Field::cast));
+    let node: Option<ast::Field> = around(checked, field.site).filter(|_| !record.is_tuple());
     Description::new(
         text,
         node.map_or(String::new(), |node| node.documentation()),
@@ -145,13 +141,9 @@ fn field(checked: &Checked, id: RecordId, number: u32) -> Description {
 
 fn binding(checked: &Checked, id: starl_lang::ir::BindingId) -> Description {
     let found = &checked.program[id];
-    let node = node_at(checked, found.site);
-    let node = node.and_then(|node| node.ancestors().find_map(ast::BindingDeclaration::cast));
+    let node: Option<ast::BindingDeclaration> = around(checked, found.site);
     let text = node.map_or(found.name.clone(), |node| {
-        one_line(
-            node.span()
-                .of(&checked.files[found.site.file as usize].source),
-        )
+        written(checked, found.site.file, &node)
     });
     let of_kind = found.primitive.map_or("", |kind| kind.documentation);
     let parts = [found.documentation.as_str(), of_kind];
@@ -209,8 +201,7 @@ fn input(checked: &Checked, number: u32) -> Description {
     let fields: Vec<String> = fields
         .map(|(name, ty)| format!("{name}: {}", program.type_name(ty)))
         .collect();
-    let node = node_at(checked, handler.site);
-    let node = node.and_then(|node| node.ancestors().find_map(Item::cast));
+    let node: Option<Item> = around(checked, handler.site);
     Description::new(
         format!("on input {name}({})", fields.join(", ")),
         node.map_or(String::new(), |node| node.documentation()),
@@ -233,32 +224,39 @@ fn header(checked: &Checked, file: u32) -> Description {
 
 /// The text of a declaration with the range of a parameter as it is written.
 fn with_range(checked: &Checked, text: String, site: Site) -> String {
-    let declaration = node_at(checked, site).and_then(|name| name.parent());
-    let range = declaration.and_then(|node| node.children().find_map(ast::ParameterRange::cast));
-    match range {
-        Some(range) => {
-            let source = &checked.files[site.file as usize].source;
-            format!("{text} {}", one_line(range.span().of(source)))
-        }
+    match part::<ast::ParameterRange>(checked, site) {
+        Some(range) => format!("{text} {}", written(checked, site.file, &range)),
         None => text,
     }
 }
 
 /// The declaration with its value as it is written, if there is one and it is short.
-fn with_value(checked: &Checked, text: String, site: Site) -> String {
-    let declaration = node_at(checked, site).and_then(|name| name.parent());
-    let value = declaration.and_then(|node| node.children().find_map(ast::Expression::cast));
-    let written =
-        value.map(|value| one_line(value.span().of(&checked.files[site.file as usize].source)));
-    match written {
-        Some(written) if written.len() <= LONGEST_VALUE => format!("{text} = {written}"),
-        _ => text,
-    }
+fn with_value(checked: &Checked, text: String, site: Site, documentation: &str) -> Description {
+    let value = part::<ast::Expression>(checked, site);
+    let value = value.map(|value| written(checked, site.file, &value));
+    let text = match value.filter(|value| value.len() <= LONGEST_VALUE) {
+        Some(value) => format!("{text} = {value}"),
+        None => text,
+    };
+    Description::new(text, documentation)
 }
 
-fn one_line(text: &str) -> String {
+/// A part of the declaration whose name is at a place.
+fn part<T: AstNode>(checked: &Checked, site: Site) -> Option<T> {
+    let declaration = node_at(checked, site)?.parent()?;
+    declaration.children().find_map(T::cast)
+}
+
+/// The innermost node of this kind around a name at a place.
+fn around<T: AstNode>(checked: &Checked, site: Site) -> Option<T> {
+    node_at(checked, site)?.ancestors().find_map(T::cast)
+}
+
+/// A part of a file as it is written, on one line.
+fn written(checked: &Checked, file: u32, node: &impl AstNode) -> String {
+    let text = node.span().of(&checked.files[file as usize].source);
     let words: Vec<&str> = text.split_whitespace().collect();
-    words.join(" ").to_string()
+    words.join(" ")
 }
 
 /// The node that is a name at a place.

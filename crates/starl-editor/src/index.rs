@@ -28,19 +28,16 @@ pub(crate) struct Index {
 impl Index {
     pub fn new(checked: &Checked) -> Self {
         let mut occurrences = Vec::new();
-        definitions(checked, &mut |site, symbol| {
+        let mut add = |site, symbol, is_definition| {
             occurrences.push(Occurrence {
                 site,
                 symbol,
-                is_definition: true,
+                is_definition,
             });
-        });
+        };
+        definitions(checked, &mut |site, symbol| add(site, symbol, true));
         for (site, symbol) in &checked.resolutions.uses {
-            occurrences.push(Occurrence {
-                site: *site,
-                symbol: *symbol,
-                is_definition: false,
-            });
+            add(*site, *symbol, false);
         }
         // The sort keeps the order of equals: a definition counts, then what was noted first.
         occurrences.sort_by_key(|occurrence| occurrence.site);
@@ -85,31 +82,28 @@ fn definitions(checked: &Checked, define: &mut dyn FnMut(Site, Symbol)) {
     for (number, name) in headers(checked) {
         define(name, Symbol::File(number));
     }
-    let roles = program.roles.as_ref().map(|roles| roles.variable);
-    let role_enum = roles.map(|variable| &program[variable].ty);
-    for (number, declared) in program.enums.iter().enumerate() {
-        let id = EnumId(number as u32);
+    let role_enum = role_enum(program);
+    for (id, declared) in (0..).map(EnumId).zip(&program.enums) {
         // The enum of the roles is declared by each of them.
-        if declared.name.is_some() && role_enum != Some(&Type::Enum(id)) {
+        if declared.name.is_some() && role_enum != Some(id) {
             define(declared.site, Symbol::Enum(id));
         }
-        for (number, variant) in declared.variants.iter().enumerate() {
-            define(variant.site, Symbol::Variant(id, number as u16));
+        for (number, variant) in (0..=u16::MAX).zip(&declared.variants) {
+            define(variant.site, Symbol::Variant(id, number));
         }
     }
-    for (number, record) in program.records.iter().enumerate() {
-        let id = RecordId(number as u32);
+    for (id, record) in (0..).map(RecordId).zip(&program.records) {
         if record.is_tuple() {
             continue;
         }
         define(record.site, Symbol::Record(id));
-        for (number, field) in record.fields.iter().enumerate() {
-            define(field.site, Symbol::Field(id, number as u32));
+        for (number, field) in (0..).zip(&record.fields) {
+            define(field.site, Symbol::Field(id, number));
         }
     }
-    for (number, variable) in program.variables.iter().enumerate() {
-        let id = VariableId(number as u32);
-        if roles != Some(id) {
+    let role = program.roles.as_ref().map(|roles| roles.variable);
+    for (id, variable) in (0..).map(VariableId).zip(&program.variables) {
+        if role != Some(id) {
             define(variable.site, Symbol::Variable(id));
         }
     }
@@ -120,54 +114,58 @@ fn definitions(checked: &Checked, define: &mut dyn FnMut(Site, Symbol)) {
 }
 
 fn others(program: &Program, define: &mut dyn FnMut(Site, Symbol)) {
-    for (number, parameter) in program.parameters.iter().enumerate() {
-        define(
-            parameter.site,
-            Symbol::Parameter(ParameterId(number as u32)),
-        );
+    for (number, parameter) in (0..).zip(&program.parameters) {
+        define(parameter.site, Symbol::Parameter(ParameterId(number)));
     }
-    for (number, constant) in program.constants.iter().enumerate() {
-        define(constant.site, Symbol::Constant(ConstantId(number as u32)));
+    for (number, constant) in (0..).zip(&program.constants) {
+        define(constant.site, Symbol::Constant(ConstantId(number)));
     }
-    for (number, shared) in program.shared.iter().enumerate() {
-        define(shared.site, Symbol::Shared(SharedId(number as u32)));
+    for (number, shared) in (0..).zip(&program.shared) {
+        define(shared.site, Symbol::Shared(SharedId(number)));
     }
-    for (number, binding) in program.bindings.iter().enumerate() {
-        define(binding.site, Symbol::Binding(BindingId(number as u32)));
+    for (number, binding) in (0..).zip(&program.bindings) {
+        define(binding.site, Symbol::Binding(BindingId(number)));
     }
-    for (number, function) in program.functions.iter().enumerate() {
-        define(function.site, Symbol::Function(FunctionId(number as u32)));
+    for (number, function) in (0..).zip(&program.functions) {
+        define(function.site, Symbol::Function(FunctionId(number)));
     }
-    for (number, action) in program.actions.iter().enumerate() {
-        define(action.site, Symbol::Action(number as u32));
+    for (number, action) in (0..).zip(&program.actions) {
+        define(action.site, Symbol::Action(number));
     }
     let mut inputs = BTreeSet::new();
-    for (number, handler) in program.handlers.iter().enumerate() {
+    for (number, handler) in (0..).zip(&program.handlers) {
         if let Event::Input { name, .. } = &handler.event
             && inputs.insert(name)
         {
-            define(handler.site, Symbol::Input(number as u32));
+            define(handler.site, Symbol::Input(number));
         }
     }
-    for (number, property) in program.properties.iter().enumerate() {
+    for (number, property) in (0..).zip(&program.properties) {
         if property.name.is_some() {
-            define(property.site, Symbol::Property(number as u32));
+            define(property.site, Symbol::Property(number));
         }
+    }
+}
+
+/// The enum of the roles, which no declaration names.
+pub(crate) fn role_enum(program: &Program) -> Option<EnumId> {
+    match program[program.roles.as_ref()?.variable].ty {
+        Type::Enum(id) => Some(id),
+        _ => None,
     }
 }
 
 /// The names that the files give themselves.
 pub(crate) fn headers(checked: &Checked) -> impl Iterator<Item = (u32, Site)> {
     use starl_lang::syntax::ast::{Item, Named};
-    (checked.files.iter().enumerate()).filter_map(|(number, file)| {
-        let mut items = file.parse.tree().items();
+    (0..).zip(&checked.files).filter_map(|(file, checked)| {
+        let mut items = checked.parse.tree().items();
         let name = items.find_map(|item| match item {
             Item::Program(header) => header.name(),
             Item::Library(header) => header.name(),
             _ => None,
         })?;
         let span = Span::from(name.token()?.text_range());
-        let file = number as u32;
         Some((file, Site { file, span }))
     })
 }

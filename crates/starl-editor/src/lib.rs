@@ -36,6 +36,6 @@ pub use index::Occurrence;
 pub use layout::layout;
 pub use outline::{OutlineEntry, OutlineKind, outline};
 pub use position::{Utf16Lines, Utf16Position, Utf16Range};
-pub use rename::{FileEdits, RenameError, Renamed};
+pub use rename::{FileEdits, RenameError};
 pub use signature::CallHelp;
 pub use token::{Token, TokenKind, TokenModifiers, tokens};

@@ -65,6 +65,9 @@ pub fn outline(parse: &Parse) -> Vec<OutlineEntry> {
     items.filter_map(|item| outline.item(item)).collect()
 }
 
+/// The kind of a declaration, its name, what else is worth seeing, and its parts.
+type Declared = (OutlineKind, Option<ast::Name>, String, Vec<OutlineEntry>);
+
 struct Outline<'a> {
     source: &'a str,
 }
@@ -72,133 +75,78 @@ struct Outline<'a> {
 impl Outline<'_> {
     fn item(&self, item: Item) -> Option<OutlineEntry> {
         let span = item.span();
-        let named = |kind, name: Option<ast::Name>, detail: String, parts| {
-            let name = name?;
-            Some(OutlineEntry {
-                kind,
-                name: name.text(),
-                detail,
-                span,
-                name_span: name.span(),
-                parts,
-            })
-        };
-        let typed = |ty: Option<ast::Type>| ty.map_or(String::new(), |ty| self.text(&ty));
-        match item {
-            Item::Program(_) | Item::Library(_) | Item::Import(_) => None,
+        let (kind, name, detail, parts) = match item {
+            Item::Program(_) | Item::Library(_) | Item::Import(_) | Item::Check(_) => return None,
             Item::Enum(node) => {
-                let variants = node.variants().map(|name| self.variant(&name)).collect();
-                named(OutlineKind::Enum, node.name(), String::new(), variants)
+                let variants = node.variants();
+                let variants = variants.map(|name| variant(&name)).collect();
+                (OutlineKind::Enum, node.name(), String::new(), variants)
             }
             Item::Record(node) => {
-                let fields = node.fields().filter_map(|field| self.field(&field));
-                let fields = fields.collect();
-                named(OutlineKind::Record, node.name(), String::new(), fields)
+                let fields = self.fields(node.fields());
+                (OutlineKind::Record, node.name(), String::new(), fields)
             }
             Item::Message(node) => {
-                let fields = node.fields().filter_map(|field| self.field(&field));
-                let fields = fields.collect();
-                named(OutlineKind::Message, node.name(), String::new(), fields)
+                let fields = self.fields(node.fields());
+                (OutlineKind::Message, node.name(), String::new(), fields)
             }
-            Item::Parameter(node) => {
-                let detail = typed(node.ty());
-                named(OutlineKind::Parameter, node.name(), detail, Vec::new())
-            }
-            Item::Constant(node) => {
-                let detail = typed(node.ty());
-                named(OutlineKind::Constant, node.name(), detail, Vec::new())
-            }
-            Item::Variable(node) => {
-                let detail = typed(node.ty());
-                named(OutlineKind::Variable, node.name(), detail, Vec::new())
-            }
-            Item::Shared(node) => {
-                let detail = typed(node.ty());
-                named(OutlineKind::Variable, node.name(), detail, Vec::new())
-            }
+            Item::Parameter(node) => self.typed(OutlineKind::Parameter, node.name(), node.ty()),
+            Item::Constant(node) => self.typed(OutlineKind::Constant, node.name(), node.ty()),
+            Item::Variable(node) => self.typed(OutlineKind::Variable, node.name(), node.ty()),
+            Item::Shared(node) => self.typed(OutlineKind::Variable, node.name(), node.ty()),
             Item::Binding(node) => {
                 let detail = self.constructor(&node);
-                named(OutlineKind::Primitive, node.name(), detail, Vec::new())
+                (OutlineKind::Primitive, node.name(), detail, Vec::new())
             }
-            Item::Function(node) => {
-                let detail = typed(node.result());
-                named(OutlineKind::Function, node.name(), detail, Vec::new())
-            }
-            Item::Action(node) => {
-                named(OutlineKind::Action, node.name(), String::new(), Vec::new())
-            }
-            Item::Check(_) => None,
-            Item::Init(_) => Some(self.unnamed(OutlineKind::Action, "init".into(), span)),
-            Item::Handler(node) => self.handler(&node, span),
+            Item::Function(node) => self.typed(OutlineKind::Function, node.name(), node.result()),
+            Item::Action(node) => self.typed(OutlineKind::Action, node.name(), None),
+            Item::Init(_) => return Some(unnamed(OutlineKind::Action, "init".into(), span)),
+            Item::Handler(node) => return self.handler(&node, span),
             Item::Role(node) => {
                 let parts = node.items().filter(|item| !matches!(item, Item::Role(_)));
                 let parts = parts.filter_map(|item| self.item(item)).collect();
-                named(OutlineKind::Role, node.name(), String::new(), parts)
+                (OutlineKind::Role, node.name(), String::new(), parts)
             }
             Item::Property(node) => match node.name() {
-                Some(name) => named(OutlineKind::Property, Some(name), node.word(), Vec::new()),
-                None => Some(self.unnamed(OutlineKind::Property, node.word(), span)),
+                None => return Some(unnamed(OutlineKind::Property, node.word(), span)),
+                name => (OutlineKind::Property, name, node.word(), Vec::new()),
             },
-        }
+        };
+        let name = name?;
+        Some(OutlineEntry {
+            detail,
+            parts,
+            ..entry(kind, name.text(), span, name.span())
+        })
     }
 
-    /// A part without a name, which begins with a keyword.
-    fn unnamed(&self, kind: OutlineKind, word: String, span: Span) -> OutlineEntry {
-        let end = (span.start + word.len() as u32).min(span.end);
-        OutlineEntry {
-            kind,
-            name: word,
-            detail: String::new(),
-            span,
-            name_span: Span::new(span.start, end),
-            parts: Vec::new(),
-        }
+    /// A declaration without parts, and its type.
+    fn typed(&self, kind: OutlineKind, name: Option<ast::Name>, ty: Option<ast::Type>) -> Declared {
+        let detail = ty.map_or(String::new(), |ty| self.text(&ty));
+        (kind, name, detail, Vec::new())
     }
 
     fn handler(&self, node: &ast::HandlerDeclaration, span: Span) -> Option<OutlineEntry> {
-        if let Some(input) = node.input() {
-            return Some(OutlineEntry {
-                kind: OutlineKind::Handler,
-                name: format!("on input {}", input.text()),
-                detail: String::new(),
-                span,
-                name_span: input.span(),
-                parts: Vec::new(),
-            });
-        }
-        let event = node.event()?;
-        let name = self.text(&event);
-        (!name.is_empty()).then(|| OutlineEntry {
-            kind: OutlineKind::Handler,
-            name: format!("on {name}"),
-            detail: String::new(),
-            span,
-            name_span: event.span(),
-            parts: Vec::new(),
-        })
+        let (name, name_span) = match node.input() {
+            Some(input) => (format!("on input {}", input.text()), input.span()),
+            None => {
+                let event = node.event()?;
+                let name = self.text(&event);
+                (!name.is_empty()).then(|| (format!("on {name}"), event.span()))?
+            }
+        };
+        Some(entry(OutlineKind::Handler, name, span, name_span))
     }
 
-    fn variant(&self, name: &ast::Name) -> OutlineEntry {
-        OutlineEntry {
-            kind: OutlineKind::Variant,
-            name: name.text(),
-            detail: String::new(),
-            span: name.span(),
-            name_span: name.span(),
-            parts: Vec::new(),
-        }
-    }
-
-    fn field(&self, field: &ast::Field) -> Option<OutlineEntry> {
-        let name = field.name()?;
-        Some(OutlineEntry {
-            kind: OutlineKind::Field,
-            name: name.text(),
-            detail: field.ty().map_or(String::new(), |ty| self.text(&ty)),
-            span: field.span(),
-            name_span: name.span(),
-            parts: Vec::new(),
-        })
+    fn fields(&self, fields: impl Iterator<Item = ast::Field>) -> Vec<OutlineEntry> {
+        let field = |field: ast::Field| {
+            let name = field.name()?;
+            Some(OutlineEntry {
+                detail: field.ty().map_or(String::new(), |ty| self.text(&ty)),
+                ..entry(OutlineKind::Field, name.text(), field.span(), name.span())
+            })
+        };
+        fields.filter_map(field).collect()
     }
 
     fn constructor(&self, node: &ast::BindingDeclaration) -> String {
@@ -212,4 +160,26 @@ impl Outline<'_> {
     fn text(&self, node: &impl AstNode) -> String {
         node.span().of(self.source).into()
     }
+}
+
+/// A part with nothing more to say and no parts of its own.
+fn entry(kind: OutlineKind, name: String, span: Span, name_span: Span) -> OutlineEntry {
+    OutlineEntry {
+        kind,
+        name,
+        detail: String::new(),
+        span,
+        name_span,
+        parts: Vec::new(),
+    }
+}
+
+/// A part without a name, which begins with a keyword.
+fn unnamed(kind: OutlineKind, word: String, span: Span) -> OutlineEntry {
+    let end = (span.start + word.len() as u32).min(span.end);
+    entry(kind, word, span, Span::new(span.start, end))
+}
+
+fn variant(name: &ast::Name) -> OutlineEntry {
+    entry(OutlineKind::Variant, name.text(), name.span(), name.span())
 }

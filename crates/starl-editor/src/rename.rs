@@ -9,12 +9,12 @@ mod changes;
 
 use crate::Analysis;
 use crate::analysis::PRELUDE_FILE;
-use crate::index::Occurrence;
+use crate::index::{Occurrence, role_enum};
 use changes::{Changes, line};
 use starl_core::Order;
 use starl_lang::check::{Libraries, Symbol};
 use starl_lang::diagnostic::{Edit, Span};
-use starl_lang::ir::{Site, Type};
+use starl_lang::ir::Site;
 use starl_lang::syntax::SyntaxKind;
 use thiserror::Error;
 
@@ -76,13 +76,6 @@ pub enum RenameError {
     },
 }
 
-/// The changes of a renaming.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Renamed {
-    /// The changes by file.
-    pub files: Vec<FileEdits>,
-}
-
 impl Analysis {
     /// The name at a place of the text, if it can be renamed; else why not.
     ///
@@ -96,22 +89,19 @@ impl Analysis {
         Ok(found)
     }
 
-    /// Whether something can be renamed.
-    ///
-    /// # Errors
-    /// Why it cannot.
-    pub fn may_rename(&self, symbol: Symbol) -> Result<(), RenameError> {
-        let roles = self.checked.program.roles.as_ref();
-        let roles = roles.map(|roles| roles.variable);
+    /// Whether something can be renamed; else why not.
+    fn may_rename(&self, symbol: Symbol) -> Result<(), RenameError> {
+        let program = &self.checked.program;
+        let role = program.roles.as_ref().map(|roles| roles.variable);
         let name = |site| self.name_at(site);
         match (symbol, self.definition(symbol)) {
-            (Symbol::File(file), Some(site)) if file > 0 || self.checked.program.is_library => {
+            (Symbol::File(file), Some(site)) if file > 0 || program.is_library => {
                 Err(RenameError::Library(name(site)))
             }
-            (Symbol::Variable(id), _) if Some(id) == roles => {
+            (Symbol::Variable(id), _) if Some(id) == role => Err(RenameError::Given("role".into())),
+            (Symbol::Enum(id), _) if Some(id) == role_enum(program) => {
                 Err(RenameError::Given("role".into()))
             }
-            (Symbol::Enum(id), _) if self.is_of_roles(id) => Err(RenameError::Given("role".into())),
             (Symbol::Input(_), Some(site)) if self.name_at(site) == Order::WAY_POINTS => {
                 Err(RenameError::WayPoints)
             }
@@ -121,13 +111,7 @@ impl Analysis {
         }
     }
 
-    fn is_of_roles(&self, id: starl_lang::ir::EnumId) -> bool {
-        let program = &self.checked.program;
-        let roles = program.roles.as_ref();
-        roles.is_some_and(|roles| program[roles.variable].ty == Type::Enum(id))
-    }
-
-    /// Gives something another name, in all files. `libraries` are those that the text was checked with.
+    /// The changes that give something another name, by file. `libraries` are those that the text was checked with.
     ///
     /// # Errors
     /// Why it keeps its name.
@@ -136,7 +120,7 @@ impl Analysis {
         symbol: Symbol,
         name: &str,
         libraries: &dyn Libraries,
-    ) -> Result<Renamed, RenameError> {
+    ) -> Result<Vec<FileEdits>, RenameError> {
         self.may_rename(symbol)?;
         valid(name)?;
         let names = self.references(symbol);
@@ -145,15 +129,13 @@ impl Analysis {
         };
         let old = self.name_at(first.site);
         if old == name {
-            return Ok(Renamed { files: Vec::new() });
+            return Ok(Vec::new());
         }
         self.refuse_unclear(&old)?;
         let changes = Changes::new(&names, name);
         let changed = changes.check(self, libraries);
         changes.compare(self, &changed, &old)?;
-        Ok(Renamed {
-            files: changes.edits(),
-        })
+        Ok(changes.edits())
     }
 
     /// Refuses if the name stands where it is not known what it stands for.

@@ -11,7 +11,7 @@ pub(crate) struct Word {
     pub meaning: &'static str,
 }
 
-const fn word(word: &'static str, form: &'static str, meaning: &'static str) -> Word {
+pub(crate) const fn word(word: &'static str, form: &'static str, meaning: &'static str) -> Word {
     Word {
         word,
         form,
@@ -247,11 +247,7 @@ pub(crate) const QUANTIFIERS: &[Word] = &[
 
 impl Word {
     pub fn description(&self) -> Description {
-        Description {
-            signature: self.form.into(),
-            documentation: self.meaning.into(),
-            of_locals: None,
-        }
+        Description::new(self.form, self.meaning)
     }
 }
 

@@ -4,8 +4,7 @@ use super::convert::Text;
 use super::documents::{Checked, Documents};
 use super::navigate::users;
 use lsp_types::{Position, PrepareRenameResponse, TextEdit, Uri, WorkspaceEdit};
-use starl_editor::RenameError;
-use starl_lang::check::Symbol;
+use starl_editor::{Occurrence, RenameError};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use thiserror::Error;
@@ -26,23 +25,23 @@ pub enum Refused {
 
 /// The name that can be renamed at a position, or the reason why there is none.
 pub fn prepare(checked: &Checked, position: Position) -> Result<PrepareRenameResponse, Refused> {
+    let found = renameable(checked, position)?;
     let text = Text::new(checked.analysis.text());
-    let found = checked.analysis.renameable(text.offset(position))?;
-    check_place(checked, found.symbol)?;
     Ok(PrepareRenameResponse::RangeWithPlaceholder {
         range: text.range(found.site.span),
         placeholder: checked.analysis.name_at(found.site),
     })
 }
 
-/// Declarations of the standard library cannot be changed.
-fn check_place(checked: &Checked, symbol: Symbol) -> Result<(), Refused> {
-    let site = checked.analysis.definition(symbol);
-    match site {
+/// The name at a position, unless it is declared in the standard library, which cannot be changed.
+fn renameable(checked: &Checked, position: Position) -> Result<Occurrence, Refused> {
+    let analysis = &checked.analysis;
+    let found = analysis.renameable(Text::new(analysis.text()).offset(position))?;
+    match analysis.definition(found.symbol) {
         Some(site) if checked.uri_of(site.file).is_none() => {
-            Err(Refused::Standard(checked.analysis.name_at(site)))
+            Err(Refused::Standard(analysis.name_at(site)))
         }
-        _ => Ok(()),
+        _ => Ok(found),
     }
 }
 
@@ -56,9 +55,7 @@ pub fn rename(
     position: Position,
     name: &str,
 ) -> Result<WorkspaceEdit, Refused> {
-    let text = Text::new(checked.analysis.text());
-    let found = checked.analysis.renameable(text.offset(position))?;
-    check_place(checked, found.symbol)?;
+    let found = renameable(checked, position)?;
     // By the names of the files: several texts may import one library.
     let mut changes: BTreeMap<String, (Uri, Places)> = BTreeMap::new();
     for (user, symbol) in users(documents, checked, found.symbol) {
@@ -71,7 +68,7 @@ pub fn rename(
                 Refused::Elsewhere { file, error }
             }
         })?;
-        for file in renamed.files {
+        for file in renamed {
             let Some(uri) = user.uri_of(file.file) else {
                 continue;
             };

@@ -4,6 +4,7 @@ use super::context::Context;
 use super::{Call, Completion};
 use crate::built_in::ROBOT_MEMBERS;
 use crate::describe::describe;
+use crate::index::role_enum;
 use crate::words::{self, Word};
 use starl_lang::check::{
     BUILTINS, Checked, Libraries, PRIMITIVES, Purity, Reach, Surroundings, Symbol,
@@ -79,12 +80,8 @@ impl<'a> Candidates<'a> {
     pub fn words(&mut self, words: &[Word]) {
         for word in words {
             self.items.push(Completion {
-                label: word.word.to_string(),
-                symbol: None,
-                detail: word.form.to_string(),
                 documentation: word.meaning.to_string(),
-                call: Call::No,
-                rank: WORD,
+                ..Completion::plain(word.word, word.form, WORD)
             });
         }
     }
@@ -108,12 +105,8 @@ impl<'a> Candidates<'a> {
     fn values(&mut self, reach: &Reach) {
         for name in &reach.parameters {
             self.items.push(Completion {
-                label: name.clone(),
-                symbol: None,
-                detail: format!("{name} = ..."),
-                documentation: String::new(),
                 call: Call::Given,
-                rank: ARGUMENT,
+                ..Completion::plain(name, format!("{name} = ..."), ARGUMENT)
             });
         }
         self.expected_variants(reach.expected.as_ref());
@@ -126,13 +119,10 @@ impl<'a> Candidates<'a> {
                 continue;
             }
             let ty = self.checked.program.type_name(&local.ty);
+            let detail = format!("{}: {ty}", local.name);
             self.items.push(Completion {
-                label: local.name.clone(),
                 symbol: Some(Symbol::Local(site)),
-                detail: format!("{}: {ty}", local.name),
-                documentation: String::new(),
-                call: Call::No,
-                rank: LOCAL,
+                ..Completion::plain(&local.name, detail, LOCAL)
             });
         }
         self.declared(reach);
@@ -244,16 +234,14 @@ impl<'a> Candidates<'a> {
 
     pub fn types_of_file(&mut self, file: u32, rank: u8) {
         let program = &self.checked.program;
-        let roles = program.roles.as_ref();
-        let role_enum = roles.map(|roles| &program[roles.variable].ty);
-        for (number, record) in program.records.iter().enumerate() {
+        for (id, record) in (0..).map(RecordId).zip(&program.records) {
             if record.site.file == file && !record.is_tuple() {
-                self.symbol(Symbol::Record(RecordId(number as u32)), rank);
+                self.symbol(Symbol::Record(id), rank);
             }
         }
-        for (number, declared) in program.enums.iter().enumerate() {
-            let id = EnumId(number as u32);
-            if declared.site.file == file && role_enum != Some(&Type::Enum(id)) {
+        let role_enum = role_enum(program);
+        for (id, declared) in (0..).map(EnumId).zip(&program.enums) {
+            if declared.site.file == file && role_enum != Some(id) {
                 self.symbol(Symbol::Enum(id), rank);
             }
         }
@@ -271,8 +259,8 @@ impl<'a> Candidates<'a> {
     }
 
     pub fn robot_members(&mut self) {
-        for (name, ..) in ROBOT_MEMBERS {
-            self.symbol(Symbol::RobotMember(name), COMMON);
+        for member in ROBOT_MEMBERS {
+            self.symbol(Symbol::RobotMember(member.word), COMMON);
         }
     }
 }

@@ -4,7 +4,6 @@ use super::candidates::{COMMON, Candidates, OWN};
 use super::{Call, Completion};
 use crate::analysis::PRELUDE_FILE;
 use crate::built_in::TYPES;
-use crate::index::headers;
 use crate::words;
 use starl_lang::check::{Libraries, Method, PRIMITIVES, Symbol};
 use starl_lang::ir::{BindingId, ParameterId, RecordId, SharedId, Type, VariableId};
@@ -76,8 +75,8 @@ impl Candidates<'_> {
     }
 
     pub fn types(&mut self) {
-        for (name, ..) in TYPES {
-            self.symbol(Symbol::Type(name), COMMON);
+        for ty in TYPES {
+            self.symbol(Symbol::Type(ty.word), COMMON);
         }
         self.types_of_file(0, OWN);
         self.types_of_file(PRELUDE_FILE, COMMON);
@@ -124,20 +123,10 @@ impl Candidates<'_> {
 
     /// All libraries except the text itself.
     pub fn libraries(&mut self, libraries: &dyn Libraries) {
-        let own = headers(self.checked).find(|(file, _)| *file == 0);
-        let own = own.map_or(String::new(), |(_, site)| {
-            site.span.of(&self.checked.files[0].source).into()
-        });
         for name in libraries.names() {
-            if name != own {
-                self.items.push(Completion {
-                    detail: format!("library {name}"),
-                    label: name,
-                    symbol: None,
-                    documentation: String::new(),
-                    call: Call::No,
-                    rank: OWN,
-                });
+            if name != self.checked.files[0].name {
+                let detail = format!("library {name}");
+                self.items.push(Completion::plain(name, detail, OWN));
             }
         }
     }

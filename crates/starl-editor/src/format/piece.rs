@@ -146,35 +146,30 @@ impl Walk {
     fn group(&mut self, group: &[SyntaxElement], errors: &[Span]) {
         let matters =
             |element: &SyntaxElement| !element.kind().is_trivia() && element.kind() != Newline;
-        let (first, last) = (
-            group.iter().position(matters),
-            group.iter().rposition(matters),
-        );
-        let (Some(first), Some(last)) = (first, last) else {
-            return group.iter().for_each(|element| self.element(element));
+        let whole = (group.iter().position(matters)).zip(group.iter().rposition(matters));
+        let wrong = whole.filter(|(first, last)| {
+            let mut elements = group[*first..=*last].iter();
+            elements.any(|element| has_error(element, errors))
+        });
+        let Some((first, last)) = wrong else {
+            return self.elements(group);
         };
-        if !group[first..=last]
-            .iter()
-            .any(|element| has_error(element, errors))
-        {
-            return group.iter().for_each(|element| self.element(element));
-        }
         // Tokens before it on its line belong to it.
         let line = group[..first]
             .iter()
             .rposition(|element| element.kind() == LineBreak);
         let first = line.map_or(0, |line| line + 1);
-        group[..first]
-            .iter()
-            .for_each(|element| self.element(element));
+        self.elements(&group[..first]);
         let text: String = group[first..=last]
             .iter()
             .map(|element| element.to_string())
             .collect();
         self.verbatim(&text);
-        group[last + 1..]
-            .iter()
-            .for_each(|element| self.element(element));
+        self.elements(&group[last + 1..]);
+    }
+
+    fn elements(&mut self, elements: &[SyntaxElement]) {
+        elements.iter().for_each(|element| self.element(element));
     }
 
     fn element(&mut self, element: &SyntaxElement) {

@@ -10,7 +10,7 @@ fn renamed_with(text: &str, name: &str, libraries: &dyn Libraries) -> Result<Str
     let analysis = Analysis::new(&text, libraries);
     let found = analysis.renameable(at)?;
     let renamed = analysis.rename(found.symbol, name, libraries)?;
-    let own = renamed.files.iter().find(|file| file.file == 0);
+    let own = renamed.iter().find(|file| file.file == 0);
     Ok(own.map_or(text.clone(), |file| edited(&text, &file.edits)))
 }
 
@@ -186,7 +186,7 @@ fn in_libraries_too() {
     let renamed = analysis
         .rename(found.symbol, "unit", &libraries)
         .expect("it is renamed");
-    let texts: Vec<String> = (renamed.files.iter())
+    let texts: Vec<String> = (renamed.iter())
         .map(|file| {
             let source = &analysis.checked.files[file.file as usize].source;
             edited(source, &file.edits)

@@ -25,13 +25,10 @@ fn meaning(analysis: &Analysis) -> (Vec<(Code, Severity)>, Vec<String>) {
 fn rename(analysis: &Analysis, name: &Occurrence, to: &str) -> Result<String, RenameError> {
     let renamed = analysis.rename(name.symbol, to, &StandardLibraries)?;
     assert!(
-        renamed.files.iter().all(|file| file.file == 0),
+        renamed.iter().all(|file| file.file == 0),
         "only the text itself changes"
     );
-    let edits = renamed
-        .files
-        .first()
-        .map_or(&[][..], |file| &file.edits[..]);
+    let edits = renamed.first().map_or(&[][..], |file| &file.edits[..]);
     Ok(edited(analysis.text(), edits))
 }
 
