@@ -2,13 +2,14 @@
 
 use super::capabilities::Client;
 use super::documents::{Checked, Documents};
+use super::rename::Refused;
 use super::transport::Fault;
 use super::{assist, diagnostics, navigate, rename, show};
 use lsp_types::request as ask;
 use lsp_types::request::Request;
 use lsp_types::{
     CodeActionOrCommand, CompletionResponse, DocumentSymbolResponse, GotoDefinitionResponse,
-    SemanticTokens, SemanticTokensRangeResult, SemanticTokensResult, TextDocumentIdentifier, Uri,
+    SemanticTokensRangeResult, SemanticTokensResult, TextDocumentIdentifier, Uri,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -31,66 +32,50 @@ impl Answers<'_> {
     /// The answer to a request.
     pub fn to(&self, method: &str, params: Value) -> Answer {
         match method {
-            ask::HoverRequest::METHOD => self.of::<ask::HoverRequest>(params, |this, params| {
-                let at = params.text_document_position_params;
-                let checked = this.checked(&at.text_document)?;
-                Ok(assist::hover(&checked, at.position))
+            ask::HoverRequest::METHOD => self.of::<ask::HoverRequest>(params, |checked, params| {
+                let at = params.text_document_position_params.position;
+                Ok(assist::hover(checked, at))
             }),
-            ask::Completion::METHOD => self.of::<ask::Completion>(params, |this, params| {
-                let at = params.text_document_position;
-                let checked = this.checked(&at.text_document)?;
-                let snippets = this.client.snippets;
-                let list = assist::completions(this.documents, &checked, at.position, snippets);
+            ask::Completion::METHOD => self.of::<ask::Completion>(params, |checked, params| {
+                let at = params.text_document_position.position;
+                let snippets = self.client.snippets;
+                let list = assist::completions(self.documents, checked, at, snippets);
                 Ok(Some(CompletionResponse::List(list)))
             }),
             ask::SignatureHelpRequest::METHOD => {
-                self.of::<ask::SignatureHelpRequest>(params, |this, params| {
-                    let at = params.text_document_position_params;
-                    let checked = this.checked(&at.text_document)?;
-                    Ok(assist::signature(&checked, at.position))
+                self.of::<ask::SignatureHelpRequest>(params, |checked, params| {
+                    let at = params.text_document_position_params.position;
+                    Ok(assist::signature(checked, at))
                 })
             }
             ask::GotoDefinition::METHOD => {
-                self.of::<ask::GotoDefinition>(params, |this, params| {
-                    let at = params.text_document_position_params;
-                    let checked = this.checked(&at.text_document)?;
-                    let place =
-                        navigate::definition(&checked, at.position, this.client.built_in_texts);
+                self.of::<ask::GotoDefinition>(params, |checked, params| {
+                    let at = params.text_document_position_params.position;
+                    let place = navigate::definition(checked, at, self.client.built_in_texts);
                     Ok(place.map(GotoDefinitionResponse::Scalar))
                 })
             }
-            ask::References::METHOD => self.of::<ask::References>(params, |this, params| {
-                let at = params.text_document_position;
-                let checked = this.checked(&at.text_document)?;
+            ask::References::METHOD => self.of::<ask::References>(params, |checked, params| {
+                let at = params.text_document_position.position;
                 let with = params.context.include_declaration;
-                Ok(navigate::references(
-                    this.documents,
-                    &checked,
-                    at.position,
-                    with,
-                ))
+                Ok(navigate::references(self.documents, checked, at, with))
             }),
             ask::DocumentHighlightRequest::METHOD => {
-                self.of::<ask::DocumentHighlightRequest>(params, |this, params| {
-                    let at = params.text_document_position_params;
-                    let checked = this.checked(&at.text_document)?;
-                    Ok(navigate::highlights(&checked, at.position))
+                self.of::<ask::DocumentHighlightRequest>(params, |checked, params| {
+                    let at = params.text_document_position_params.position;
+                    Ok(navigate::highlights(checked, at))
                 })
             }
             ask::PrepareRenameRequest::METHOD => {
-                self.of::<ask::PrepareRenameRequest>(params, |this, at| {
-                    let checked = this.checked(&at.text_document)?;
-                    rename::prepare(&checked, at.position)
-                        .map(Some)
-                        .map_err(|refused| (Fault::Failed, refused.to_string()))
+                self.of::<ask::PrepareRenameRequest>(params, |checked, at| {
+                    let found = rename::prepare(checked, at.position);
+                    found.map(Some).map_err(failed)
                 })
             }
-            ask::Rename::METHOD => self.of::<ask::Rename>(params, |this, params| {
-                let at = params.text_document_position;
-                let checked = this.checked(&at.text_document)?;
-                rename::rename(this.documents, &checked, at.position, &params.new_name)
-                    .map(Some)
-                    .map_err(|refused| (Fault::Failed, refused.to_string()))
+            ask::Rename::METHOD => self.of::<ask::Rename>(params, |checked, params| {
+                let at = params.text_document_position.position;
+                let edit = rename::rename(self.documents, checked, at, &params.new_name);
+                edit.map(Some).map_err(failed)
             }),
             _ => self.to_whole(method, params),
         }
@@ -100,49 +85,34 @@ impl Answers<'_> {
     fn to_whole(&self, method: &str, params: Value) -> Answer {
         match method {
             ask::DocumentSymbolRequest::METHOD => {
-                self.of::<ask::DocumentSymbolRequest>(params, |this, params| {
-                    let checked = this.checked(&params.text_document)?;
-                    let outline = show::outline(&checked);
+                self.of::<ask::DocumentSymbolRequest>(params, |checked, _| {
+                    let outline = show::outline(checked);
                     Ok(Some(DocumentSymbolResponse::Nested(outline)))
                 })
             }
-            ask::FoldingRangeRequest::METHOD => {
-                self.of::<ask::FoldingRangeRequest>(params, |this, params| {
-                    let checked = this.checked(&params.text_document)?;
-                    Ok(Some(show::folds(&checked)))
-                })
+            ask::FoldingRangeRequest::METHOD => self
+                .of::<ask::FoldingRangeRequest>(params, |checked, _| {
+                    Ok(Some(show::folds(checked)))
+                }),
+            ask::Formatting::METHOD => {
+                self.of::<ask::Formatting>(params, |checked, _| Ok(Some(show::layout(checked))))
             }
-            ask::Formatting::METHOD => self.of::<ask::Formatting>(params, |this, params| {
-                let checked = this.checked(&params.text_document)?;
-                Ok(Some(show::layout(&checked)))
-            }),
             ask::CodeActionRequest::METHOD => {
-                self.of::<ask::CodeActionRequest>(params, |this, params| {
-                    let checked = this.checked(&params.text_document)?;
-                    let fixes = diagnostics::fixes(&checked, params.range);
+                self.of::<ask::CodeActionRequest>(params, |checked, params| {
+                    let fixes = diagnostics::fixes(checked, params.range);
                     let fixes = fixes.into_iter().map(CodeActionOrCommand::CodeAction);
                     Ok(Some(fixes.collect()))
                 })
             }
             ask::SemanticTokensFullRequest::METHOD => {
-                self.of::<ask::SemanticTokensFullRequest>(params, |this, params| {
-                    let checked = this.checked(&params.text_document)?;
-                    let data = show::tokens(&checked, None);
-                    let tokens = SemanticTokens {
-                        result_id: None,
-                        data,
-                    };
+                self.of::<ask::SemanticTokensFullRequest>(params, |checked, _| {
+                    let tokens = show::tokens(checked, None);
                     Ok(Some(SemanticTokensResult::Tokens(tokens)))
                 })
             }
             ask::SemanticTokensRangeRequest::METHOD => {
-                self.of::<ask::SemanticTokensRangeRequest>(params, |this, params| {
-                    let checked = this.checked(&params.text_document)?;
-                    let data = show::tokens(&checked, Some(params.range));
-                    let tokens = SemanticTokens {
-                        result_id: None,
-                        data,
-                    };
+                self.of::<ask::SemanticTokensRangeRequest>(params, |checked, params| {
+                    let tokens = show::tokens(checked, Some(params.range));
                     Ok(Some(SemanticTokensRangeResult::Tokens(tokens)))
                 })
             }
@@ -157,23 +127,26 @@ impl Answers<'_> {
         }
     }
 
-    /// The answer to a request whose parameters and result have types.
+    /// The answer to a request about an open text, whose parameters and result have types.
     fn of<R: Request>(
         &self,
         params: Value,
-        answer: impl FnOnce(&Self, R::Params) -> Result<R::Result, (Fault, String)>,
+        answer: impl FnOnce(&Rc<Checked>, R::Params) -> Result<R::Result, (Fault, String)>,
     ) -> Answer {
+        let document = params["textDocument"].clone();
         let params: R::Params = read(params)?;
-        let result = answer(self, params)?;
-        serde_json::to_value(result).map_err(|error| (Fault::Internal, error.to_string()))
-    }
-
-    fn checked(&self, document: &TextDocumentIdentifier) -> Result<Rc<Checked>, (Fault, String)> {
-        self.documents.checked(&document.uri).ok_or_else(|| {
+        let document: TextDocumentIdentifier = read(document)?;
+        let checked = self.documents.checked(&document.uri).ok_or_else(|| {
             let name = document.uri.as_str();
             (Fault::InvalidParams, format!("{name} is not open"))
-        })
+        })?;
+        let result = answer(&checked, params)?;
+        serde_json::to_value(result).map_err(|error| (Fault::Internal, error.to_string()))
     }
+}
+
+fn failed(refused: Refused) -> (Fault, String) {
+    (Fault::Failed, refused.to_string())
 }
 
 /// Parameters of the right shape.

@@ -4,7 +4,7 @@ use super::convert::Text;
 use super::documents::Checked;
 use lsp_types::{
     DocumentSymbol, FoldingRange, Range, SemanticToken, SemanticTokenModifier, SemanticTokenType,
-    SymbolKind, TextEdit,
+    SemanticTokens, SymbolKind, TextEdit,
 };
 use starl_editor::{OutlineEntry, OutlineKind, TokenKind, TokenModifiers};
 
@@ -104,10 +104,10 @@ pub fn token_modifiers() -> Vec<SemanticTokenModifier> {
 }
 
 /// The words of a text, or of a part of it, each placed by the one before.
-pub fn tokens(checked: &Checked, part: Option<Range>) -> Vec<SemanticToken> {
+pub fn tokens(checked: &Checked, part: Option<Range>) -> SemanticTokens {
     let text = Text::new(checked.analysis.text());
     let (mut line, mut start) = (0, 0);
-    let mut tokens = Vec::new();
+    let mut data = Vec::new();
     for token in starl_editor::tokens(&checked.analysis) {
         let range = text.range(token.span);
         if part.is_some_and(|part| range.end < part.start || part.end < range.start) {
@@ -119,7 +119,7 @@ pub fn tokens(checked: &Checked, part: Option<Range>) -> Vec<SemanticToken> {
             continue;
         };
         let column = range.start.character;
-        tokens.push(SemanticToken {
+        data.push(SemanticToken {
             delta_line: range.start.line - line,
             delta_start: if range.start.line == line {
                 column - start
@@ -132,7 +132,10 @@ pub fn tokens(checked: &Checked, part: Option<Range>) -> Vec<SemanticToken> {
         });
         (line, start) = (range.start.line, column);
     }
-    tokens
+    SemanticTokens {
+        result_id: None,
+        data,
+    }
 }
 
 fn bits(modifiers: TokenModifiers) -> u32 {
