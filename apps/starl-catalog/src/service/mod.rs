@@ -7,13 +7,14 @@ use crate::examples::{self, EXAMPLES};
 use crate::programs::Registry;
 use crate::schema::schema;
 use crate::session::{
-    Budget, Disk, Document, Files, Refused, Session, Status, World, check, fleet, formatted, states,
+    Budget, Disk, Document, Files, Refused, Session, Status, World, check, fleet, states,
 };
 use crate::trial::{Trials, profiles};
 use request::{Contents, Request};
 use serde::Serialize;
 use serde_json::{Value, json};
 use starl_core::Time;
+use starl_editor::format::format;
 use starl_sim::shrink::Limits;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -139,7 +140,7 @@ impl Service {
             Request::Outline { files, path } => {
                 answer(&Document::open(&self.files(files), &path)?.outline())
             }
-            Request::Format { text } => answer(&formatted(&text)),
+            Request::Format { text } => answer(&format(&text)),
             Request::Profiles {} => answer(&profiles()),
             Request::Try {
                 files,

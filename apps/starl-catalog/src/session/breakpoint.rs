@@ -6,6 +6,7 @@
 mod names;
 
 use super::diagnostic::Diagnostic;
+use super::inspect::language_program;
 use super::open::Refused;
 use crate::Application;
 use crate::language::FleetCondition;
@@ -14,7 +15,6 @@ use serde::{Deserialize, Serialize};
 use starl_core::event::Event;
 use starl_core::{Record, RobotId};
 use starl_lang::machine::Fault;
-use starl_lang::robot::RobotProgram;
 use starl_sim::{Run, Simulation};
 use std::collections::BTreeMap;
 
@@ -234,11 +234,8 @@ fn compiled(
 
 /// The message that a datagram carried which has just arrived, as the receiver's program knows it.
 fn message(simulation: &Simulation, robot: RobotId, from: RobotId, sequence: u32) -> Option<&str> {
-    let program = simulation.program(robot).inspect()?;
-    let program = program.downcast_ref::<RobotProgram>()?;
-    program
-        .code()
-        .message_in(simulation.arrived(from, sequence)?)
+    let code = language_program(simulation, robot)?.code();
+    code.message_in(simulation.arrived(from, sequence)?)
 }
 
 /// The robots concerned.

@@ -1,9 +1,9 @@
 //! All problems of files in memory, programs and scenarios.
 
 use super::files::{Beside, Files};
-use crate::Refusal;
 use crate::language::{Findings, SUFFIX};
 use crate::programs::Registry;
+use crate::{Application, Refusal};
 use serde::Serialize;
 use starl_editor::Analysis;
 use starl_lang::diagnostic::{LineIndex, Severity, Span};
@@ -12,19 +12,27 @@ use starl_sim::read::{Place, Problem, Request, Source};
 /// The ending of scenarios' names.
 pub(super) const SCENARIO_SUFFIX: &str = ".toml";
 
-/// One problem of a file.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct Diagnostic {
-    /// The file's path; none for a problem with an option.
-    pub file: Option<String>,
-    /// The line, from 1.
+/// A part of a file. Lines and characters are counted from 1; characters are Unicode characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Extent {
+    /// The line.
     pub line: u32,
-    /// The first character concerned in its line, from 1; counted in Unicode characters.
+    /// The first character in its line.
     pub column: u32,
     /// The line of the end.
     pub end_line: u32,
     /// The character after the last.
     pub end_column: u32,
+}
+
+/// One problem of a file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Diagnostic {
+    /// The file's path; none for a problem with an option.
+    pub file: Option<String>,
+    /// The part concerned; empty if only its start is known.
+    #[serde(flatten)]
+    pub extent: Extent,
     /// How many Unicode characters are concerned, 0 if only the start is known.
     pub length: u32,
     /// `error` or `warning`.
@@ -47,34 +55,36 @@ pub struct Diagnostic {
     pub unnecessary: bool,
 }
 
-/// Another place of the file that helps to understand a problem; counted as in [`Diagnostic`].
+/// Another place of the file that helps to understand a problem.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Related {
-    /// The line, from 1.
-    pub line: u32,
-    /// The first character concerned, from 1.
-    pub column: u32,
-    /// The line of the end.
-    pub end_line: u32,
-    /// The character after the last.
-    pub end_column: u32,
+    /// The place.
+    #[serde(flatten)]
+    pub extent: Extent,
     /// The description of the position.
     pub message: String,
 }
 
-/// A change of the file; counted as in [`Diagnostic`].
+/// A change of the file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Edit {
-    /// The line, from 1.
-    pub line: u32,
-    /// The first character that is replaced, from 1.
-    pub column: u32,
-    /// The line of the end.
-    pub end_line: u32,
-    /// The character after the last that is replaced.
-    pub end_column: u32,
+    /// The part that is replaced.
+    #[serde(flatten)]
+    pub extent: Extent,
     /// The new text.
     pub text: String,
+}
+
+impl Extent {
+    /// A place between two characters.
+    fn at(line: u32, column: u32) -> Extent {
+        Extent {
+            line,
+            column,
+            end_line: line,
+            end_column: column,
+        }
+    }
 }
 
 impl Diagnostic {
@@ -82,10 +92,7 @@ impl Diagnostic {
     pub(super) fn of_file(file: &str, message: String) -> Diagnostic {
         Diagnostic {
             file: Some(file.to_string()),
-            line: 1,
-            column: 1,
-            end_line: 1,
-            end_column: 1,
+            extent: Extent::at(1, 1),
             length: 0,
             severity: "error",
             code: None,
@@ -114,10 +121,7 @@ impl Diagnostic {
         };
         Diagnostic {
             file,
-            line,
-            column,
-            end_line: line,
-            end_column: column,
+            extent: Extent::at(line, column),
             field,
             help,
             ..Diagnostic::of_file("", message)
@@ -131,39 +135,29 @@ impl Diagnostic {
         diagnostics: &'a [starl_lang::diagnostic::Diagnostic],
     ) -> impl Iterator<Item = Diagnostic> + use<'a> {
         let lines = LineIndex::new(source);
-        let place = move |span: Span| {
+        let extent = move |span: Span| {
             let last = source.len() as u32;
             let position = |offset: u32| lines.position(source, offset.min(last));
-            (position(span.start), position(span.end))
-        };
-        diagnostics.iter().map(move |diagnostic| {
-            let (start, end) = place(diagnostic.span);
-            let related = diagnostic.labels.iter().map(|label| {
-                let (start, end) = place(label.span);
-                Related {
-                    line: start.line,
-                    column: start.column,
-                    end_line: end.line,
-                    end_column: end.column,
-                    message: label.message.clone(),
-                }
-            });
-            let edits = diagnostic.fix.iter().flat_map(|fix| &fix.edits);
-            let edits = edits.map(|edit| {
-                let (start, end) = place(edit.span);
-                Edit {
-                    line: start.line,
-                    column: start.column,
-                    end_line: end.line,
-                    end_column: end.column,
-                    text: edit.text.clone(),
-                }
-            });
-            Diagnostic {
+            let (start, end) = (position(span.start), position(span.end));
+            Extent {
                 line: start.line,
                 column: start.column,
                 end_line: end.line,
                 end_column: end.column,
+            }
+        };
+        diagnostics.iter().map(move |diagnostic| {
+            let related = diagnostic.labels.iter().map(|label| Related {
+                extent: extent(label.span),
+                message: label.message.clone(),
+            });
+            let edits = diagnostic.fix.iter().flat_map(|fix| &fix.edits);
+            let edits = edits.map(|edit| Edit {
+                extent: extent(edit.span),
+                text: edit.text.clone(),
+            });
+            Diagnostic {
+                extent: extent(diagnostic.span),
                 length: diagnostic.span.of(source).chars().count() as u32,
                 severity: match diagnostic.severity() {
                     Severity::Error => "error",
@@ -195,9 +189,17 @@ impl Diagnostic {
     }
 
     /// The compiler has found this in a program that a scenario names.
-    pub(super) fn of_program(findings: &Findings, beside: &Beside<'_>) -> Vec<Diagnostic> {
+    fn of_program(findings: &Findings, beside: &Beside<'_>) -> Vec<Diagnostic> {
         let path = beside.resolve(&findings.path);
         Diagnostic::of_findings(&path, &findings.source, &findings.diagnostics).collect()
+    }
+
+    /// The warnings of the compiler about the programs of an application.
+    pub(super) fn of_warnings(application: &Application, beside: &Beside<'_>) -> Vec<Diagnostic> {
+        let warnings = application.warnings().iter();
+        warnings
+            .flat_map(|findings| Diagnostic::of_program(findings, beside))
+            .collect()
     }
 
     /// All problems of a scenario and its programs.
@@ -242,12 +244,7 @@ fn scenario(files: &Files, path: &str, text: &str, registry: &Registry) -> Vec<D
     let beside = Beside::new(files, path);
     let request = Request::new(Source::new(path, text));
     let found = match crate::read(&request, &beside, registry) {
-        Ok(application) => {
-            let warnings = application.warnings().iter();
-            warnings
-                .flat_map(|findings| Diagnostic::of_program(findings, &beside))
-                .collect()
-        }
+        Ok(application) => Diagnostic::of_warnings(&application, &beside),
         Err(refusal) => Diagnostic::of_refusal(refusal, &beside),
     };
     let is_new = |found: &Diagnostic| {

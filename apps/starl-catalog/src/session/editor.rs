@@ -5,7 +5,6 @@ use super::Refused;
 use super::files::{Beside, Files};
 use crate::language::SUFFIX;
 use serde::Serialize;
-use starl_editor::format::format;
 use starl_editor::{
     Analysis, BUILT_IN, CompletionKind, Insertion, OutlineEntry, OutlineKind, Utf16Lines,
     Utf16Position, Utf16Range,
@@ -180,11 +179,6 @@ impl<'a> Document<'a> {
     fn range(&self, span: Span) -> Utf16Range {
         self.lines.range(self.text, span)
     }
-}
-
-/// The text of a program or library as the formatter formats it.
-pub fn formatted(text: &str) -> String {
-    format(text)
 }
 
 fn given(text: String) -> Option<String> {

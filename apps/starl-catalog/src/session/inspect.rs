@@ -4,7 +4,7 @@ use super::SensorReport;
 use serde::Serialize;
 use starl_core::{Command, Estimate, Port, Pose, RobotId, TimerKey, Twist};
 use starl_lang::robot::{PrimitiveState, RobotProgram};
-use starl_sim::Run;
+use starl_sim::{Run, Simulation};
 
 /// One robot at one moment. Times are in seconds, lengths in metres, angles in radians.
 #[derive(Clone, Debug, Serialize)]
@@ -151,8 +151,7 @@ impl RobotReport {
         let (group, _) = fleet.group_of(robot)?;
         let node = simulation.node(robot);
         let (clock, state) = (node.clock(), simulation.state(robot));
-        let program = simulation.program(robot).inspect();
-        let program = program.and_then(|program| program.downcast_ref::<RobotProgram>());
+        let program = language_program(simulation, robot);
         let primitives = program.map_or(Vec::new(), RobotProgram::primitives_state);
         let owner = |port| owner(&primitives, port);
         let mut failures = run.failures().iter().rev();
@@ -245,6 +244,11 @@ impl RobotReport {
             state: is_shown.then_some(text),
         })
     }
+}
+
+/// The program of a robot, if it is one in the StarL language.
+pub(super) fn language_program(simulation: &Simulation, robot: RobotId) -> Option<&RobotProgram> {
+    simulation.program(robot).inspect()?.downcast_ref()
 }
 
 /// The word for how a robot is.

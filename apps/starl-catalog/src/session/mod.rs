@@ -17,8 +17,8 @@ mod senses;
 mod shared;
 
 pub use breakpoint::{Breakpoint, Stopped};
-pub use diagnostic::{Diagnostic, Edit, Related, check};
-pub use editor::{Completion, Definition, Document, Hover, Part, formatted};
+pub use diagnostic::{Diagnostic, Edit, Extent, Related, check};
+pub use editor::{Completion, Definition, Document, Hover, Part};
 pub use files::{Beside, Disk, Files};
 pub use inspect::{
     ActionReport, ClockReport, MailReport, PrimitiveReport, RobotReport, TimerReport,
@@ -135,10 +135,7 @@ impl Session {
         global_names: BTreeMap<String, String>,
     ) -> Session {
         let files = Files::default();
-        let beside = Beside::new(&files, "");
-        let warnings = application.warnings().iter();
-        let warnings = warnings.flat_map(|findings| Diagnostic::of_program(findings, &beside));
-        let warnings = warnings.collect();
+        let warnings = Diagnostic::of_warnings(application, &Beside::new(&files, ""));
         Session::new(run, application.clone(), warnings, global_names)
     }
 

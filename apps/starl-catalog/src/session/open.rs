@@ -137,9 +137,7 @@ pub(crate) fn open(
     };
     match read(&request, &beside, registry) {
         Ok(application) => Ok(Opened {
-            warnings: (application.warnings().iter())
-                .flat_map(|findings| Diagnostic::of_program(findings, &beside))
-                .collect(),
+            warnings: Diagnostic::of_warnings(&application, &beside),
             application,
             path: path.clone(),
             global_names: example.map_or(BTreeMap::new(), |example| {

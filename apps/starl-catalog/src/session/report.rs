@@ -1,11 +1,10 @@
 //! The report of a run at any time: its progress, its verdicts and counts, its fleet and its world.
 
 use super::breakpoint::Stopped;
-use super::inspect::condition;
+use super::inspect::{condition, language_program};
 use serde::Serialize;
 use starl_core::intervention::NetworkKnob;
 use starl_core::{Obstacle, Point, RobotId, WayPoint};
-use starl_lang::robot::RobotProgram;
 use starl_properties::Verdict;
 use starl_sim::engine::Drops;
 use starl_sim::{Run, Simulation};
@@ -324,10 +323,7 @@ pub fn fleet(run: &Run) -> Vec<Member> {
 /// started.
 pub fn states(run: &Run) -> Vec<Option<&str>> {
     let simulation = run.simulation();
-    let stage = |&robot: &RobotId| {
-        let program = simulation.program(robot).inspect()?;
-        program.downcast_ref::<RobotProgram>()?.stage()
-    };
+    let stage = |&robot: &RobotId| language_program(simulation, robot)?.stage();
     simulation.robots().iter().map(stage).collect()
 }
 

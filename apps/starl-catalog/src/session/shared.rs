@@ -1,8 +1,8 @@
 //! The values of shared variables: records hold hashes of them, robots the values.
 
+use super::inspect::language_program;
 use starl_core::Record;
 use starl_core::event::{Event, PrimitiveEvent, SharedMemoryEvent};
-use starl_lang::robot::RobotProgram;
 use starl_sim::Run;
 use std::collections::BTreeSet;
 use std::mem;
@@ -46,8 +46,7 @@ impl SharedValues {
             let Some(robot) = record.robot.filter(|_| !self.known.contains(&key)) else {
                 continue;
             };
-            let program = run.simulation().program(robot).inspect();
-            let program = program.and_then(|program| program.downcast_ref::<RobotProgram>());
+            let program = language_program(run.simulation(), robot);
             let value = program.and_then(|program| program.shared_value(variable, hash));
             if let Some(value) = value {
                 self.fresh.push((key.0.clone(), hash, value));

@@ -50,8 +50,8 @@ fn shown_by_page(text: &str, found: &Diagnostic) -> Problem {
     let mut message = vec![found.message.clone()];
     message.extend(found.notes.iter().cloned());
     (
-        place(found.line, found.column),
-        place(found.end_line, found.end_column),
+        place(found.extent.line, found.extent.column),
+        place(found.extent.end_line, found.extent.end_column),
         if found.severity == "error" { 1 } else { 2 },
         found
             .code
