@@ -184,7 +184,14 @@ impl Diagnostic {
         self
     }
 
-    /// The same, with fixes.
+    /// The same, with this note if there is one.
+    #[must_use]
+    pub fn note_if(mut self, note: Option<impl Into<String>>) -> Self {
+        self.notes.extend(note.map(Into::into));
+        self
+    }
+
+    /// The same, with a fix.
     #[must_use]
     pub fn fix(mut self, fix: Fix) -> Self {
         self.fix = Some(fix);
@@ -194,9 +201,22 @@ impl Diagnostic {
     /// The same, fixed by one replacement at `span`.
     #[must_use]
     pub fn replace(self, message: impl Into<String>, span: Span, text: impl Into<String>) -> Self {
+        self.edits(message, [Edit::new(span, text)])
+    }
+
+    /// The same, fixed by writing `text` at `span`; the instruction names the text without white space around it.
+    #[must_use]
+    pub fn write(self, span: Span, text: impl Into<String>) -> Self {
+        let text = text.into();
+        self.replace(format!("write `{}`", text.trim()), span, text)
+    }
+
+    /// The same, fixed by these edits, sorted by position.
+    #[must_use]
+    pub fn edits(self, message: impl Into<String>, edits: impl Into<Vec<Edit>>) -> Self {
         self.fix(Fix {
             message: message.into(),
-            edits: Vec::from([Edit::new(span, text)]),
+            edits: edits.into(),
         })
     }
 }

@@ -82,11 +82,8 @@ fn too_long(text: &str) -> Parse {
     builder.start_node(Language::kind_to_raw(SyntaxKind::SourceFile));
     builder.token(Language::kind_to_raw(SyntaxKind::Unknown), text);
     builder.finish_node();
-    let problem = Diagnostic::new(
-        Code::TooLong,
-        Span::empty(0),
-        "this file is too long to be read",
-    );
+    let message = "this file is too long to be read";
+    let problem = Diagnostic::new(Code::TooLong, Span::empty(0), message);
     let diagnostic = problem.note(alloc::format!("at most {} MiB are read", MAX_LENGTH >> 20));
     Parse {
         green: builder.finish(),

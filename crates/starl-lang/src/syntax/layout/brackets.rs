@@ -86,7 +86,7 @@ fn mismatched(text: &str, tokens: &Tokens, open: usize, close: usize) -> Diagnos
     );
     Diagnostic::new(Code::UnbalancedBracket, close, message)
         .label(open, "which is open here")
-        .replace(format!("write `{right}`"), close, right)
+        .write(close, right)
 }
 
 fn not_opened(text: &str, span: Span) -> Diagnostic {

@@ -53,11 +53,8 @@ fn integer(number: &str, span: Span, before: SyntaxKind) -> Option<Diagnostic> {
     if literal::integer(number).is_some_and(|value| value <= largest) {
         return None;
     }
-    let problem = Diagnostic::new(
-        Code::MalformedNumber,
-        span,
-        "this number is too large for an Int",
-    );
+    let message = "this number is too large for an Int";
+    let problem = Diagnostic::new(Code::MalformedNumber, span, message);
     Some(problem.note(format!("the largest Int is {}", i64::MAX)))
 }
 
@@ -112,7 +109,7 @@ fn malformed_number(text: &str, span: Span) -> Diagnostic {
     }
     let closest = || closest(suffix, UNITS.iter().map(|unit| unit.name));
     match literal::unit_meant(suffix).or_else(closest) {
-        Some(name) => problem.replace(format!("write `{name}`"), place, name),
+        Some(name) => problem.write(place, name),
         None => problem,
     }
 }
@@ -146,7 +143,7 @@ fn comment(text: &str, span: Span) -> Option<Diagnostic> {
     let comment = span.of(text);
     let problem = Diagnostic::new(Code::ForeignComment, span, "a comment starts with `//`");
     if comment.starts_with('#') {
-        return Some(problem.replace("write `//`", Span::new(span.start, span.start + 1), "//"));
+        return Some(problem.write(Span::new(span.start, span.start + 1), "//"));
     }
     let inner = comment.strip_prefix("/*")?;
     let inner = inner.strip_suffix("*/").unwrap_or(inner).trim();
@@ -167,15 +164,11 @@ fn unknown(text: &str, span: Span) -> Diagnostic {
         '“' | '”' | '„' => problem(format!(
             "`{character}` is not a quotation mark of a program"
         ))
-        .replace("write `\"`", span, "\""),
+        .write(span, "\""),
         '°' => {
             let end = text[..span.start as usize].trim_end_matches(' ').len() as u32;
             let place = Span::new(end, span.end);
-            problem("an angle in degrees is written `90deg`".into()).replace(
-                "write `deg`",
-                place,
-                "deg",
-            )
+            problem("an angle in degrees is written `90deg`".into()).write(place, "deg")
         }
         '^' => problem("there is no operator `^`".into()).note("a power is written `pow(a, b)`"),
         '∀' => problem("`∀` is written `forall`".into()).replace(

@@ -1,127 +1,116 @@
 //! Arguments, lists, sets, maps and what builds them from other collections.
 
-use super::expression::{Parsed, Shape, condition, expression_parsed};
-use super::item::name;
-use super::{Parser, SyntaxKind, SyntaxKind::*, words};
+use super::expression::{Parsed, Shape};
+use super::{Parser, SyntaxKind, SyntaxKind::*};
 
-/// `(a, name = b)`; the height of the highest.
-pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
-    let open = parser.span();
-    let mut height = 0;
-    parser.start(ArgumentList);
-    parser.bump();
-    parser.separated(RightParen, open, |parser| {
-        parser.start(Argument);
-        if parser.at(Identifier) && parser.nth(1) == Equal {
-            name(parser);
-            parser.bump();
-        } else if parser.at(Identifier) && parser.nth(1) == Colon {
-            name(parser);
-            words::replace(parser, "the name of an argument stands before `=`", " =");
+impl Parser<'_> {
+    /// `(a, name = b)`; the height of the highest.
+    pub(super) fn arguments(&mut self) -> u32 {
+        let mut height = 0;
+        self.bracketed(ArgumentList, RightParen, |parser| {
+            parser.start(Argument);
+            if parser.at(Identifier) && parser.nth(1) == Equal {
+                parser.name();
+                parser.bump();
+            } else if parser.at(Identifier) && parser.nth(1) == Colon {
+                parser.name();
+                parser.replace_word("the name of an argument stands before `=`", " =");
+            }
+            height = height.max(parser.expression().height);
+            if parser.at(ForKeyword) {
+                height = height.max(parser.comprehension());
+            }
+            parser.finish();
+        });
+        height + 1
+    }
+
+    /// `[a, b]` or `[f(x) for x in xs if c by k]`.
+    pub(super) fn list(&mut self) -> Parsed {
+        self.elements(ListExpression, RightBracket, |parser| {
+            parser.expression().height
+        })
+    }
+
+    /// `{a, b}`, `{k: v}`, `{}`, `{:}` or a comprehension of them.
+    pub(super) fn braces(&mut self) -> Parsed {
+        if self.nth(1) == Colon && self.nth(2) == RightBrace {
+            self.start(BraceExpression);
+            self.bump();
+            self.bump();
+            self.bump();
+            self.finish();
+            return Parsed::new(Shape::Other, 1);
         }
-        height = height.max(expression_parsed(parser).height);
-        if parser.at(ForKeyword) {
-            height = height.max(comprehension(parser));
+        self.elements(BraceExpression, RightBrace, |parser| {
+            let start = parser.checkpoint();
+            let key = parser.expression().height;
+            if !parser.eat(Colon) {
+                return key;
+            }
+            let value = parser.expression().height;
+            parser.start_at(start, MapEntry);
+            parser.finish();
+            key.max(value) + 1
+        })
+    }
+
+    fn elements(
+        &mut self,
+        kind: SyntaxKind,
+        closing: SyntaxKind,
+        element: fn(&mut Self) -> u32,
+    ) -> Parsed {
+        let mut height = 0;
+        self.bracketed(kind, closing, |parser| {
+            height = height.max(element(parser));
+            if parser.at(ForKeyword) {
+                height = height.max(parser.comprehension());
+            }
+        });
+        Parsed::new(Shape::Other, height + 1)
+    }
+
+    /// `for x in xs if c by k`.
+    fn comprehension(&mut self) -> u32 {
+        self.start(ComprehensionClause);
+        self.bump();
+        let mut height = self.iteration();
+        if self.eat(IfKeyword) {
+            height = height.max(self.condition().height);
         }
-        parser.finish();
-    });
-    parser.finish();
-    height + 1
-}
-
-/// `[a, b]` or `[f(x) for x in xs if c by k]`.
-pub(super) fn list(parser: &mut Parser<'_>) -> Parsed {
-    elements(parser, ListExpression, RightBracket, |parser| {
-        expression_parsed(parser).height
-    })
-}
-
-/// `{a, b}`, `{k: v}`, `{}`, `{:}` or a comprehension of them.
-pub(super) fn braces(parser: &mut Parser<'_>) -> Parsed {
-    if parser.nth(1) == Colon && parser.nth(2) == RightBrace {
-        parser.start(BraceExpression);
-        parser.bump();
-        parser.bump();
-        parser.bump();
-        parser.finish();
-        return Parsed::new(Shape::Other, 1);
-    }
-    elements(parser, BraceExpression, RightBrace, |parser| {
-        let start = parser.checkpoint();
-        let key = expression_parsed(parser).height;
-        if !parser.eat(Colon) {
-            return key;
+        if self.at_word("by") {
+            self.bump();
+            height = height.max(self.expression().height);
         }
-        let value = expression_parsed(parser).height;
-        parser.start_at(start, MapEntry);
-        parser.finish();
-        key.max(value) + 1
-    })
-}
+        self.finish();
+        height + 1
+    }
 
-fn elements(
-    parser: &mut Parser<'_>,
-    kind: SyntaxKind,
-    closing: SyntaxKind,
-    element: fn(&mut Parser<'_>) -> u32,
-) -> Parsed {
-    let open = parser.span();
-    let mut height = 0;
-    parser.start(kind);
-    parser.bump();
-    parser.separated(closing, open, |parser| {
-        height = height.max(element(parser));
-        if parser.at(ForKeyword) {
-            height = height.max(comprehension(parser));
+    /// `x in xs` or `k, v in map`; the height of the collection.
+    pub(super) fn iteration(&mut self) -> u32 {
+        self.start(LoopVariables);
+        self.pattern();
+        if self.eat(Comma) {
+            self.pattern();
         }
-    });
-    parser.finish();
-    Parsed::new(Shape::Other, height + 1)
-}
+        self.finish();
+        let is_foreign = self.at_word("of");
+        if is_foreign {
+            self.replace_word("the collection stands after `in`", "in");
+        }
+        if is_foreign || self.expect(InKeyword) {
+            self.expression().height
+        } else {
+            0
+        }
+    }
 
-/// `for x in xs if c by k`.
-fn comprehension(parser: &mut Parser<'_>) -> u32 {
-    parser.start(ComprehensionClause);
-    parser.bump();
-    let mut height = iteration(parser);
-    if parser.eat(IfKeyword) {
-        height = height.max(condition(parser).height);
+    /// A name, or names for the parts of a tuple: `x` or `(a, b)`.
+    pub(super) fn pattern(&mut self) {
+        match self.at(LeftParen) {
+            true => self.bracketed(TuplePattern, RightParen, Self::name),
+            false => self.name(),
+        }
     }
-    if parser.at_word("by") {
-        parser.bump();
-        height = height.max(expression_parsed(parser).height);
-    }
-    parser.finish();
-    height + 1
-}
-
-/// `x in xs` or `k, v in map`; the height of the collection.
-pub(super) fn iteration(parser: &mut Parser<'_>) -> u32 {
-    parser.start(LoopVariables);
-    pattern(parser);
-    if parser.eat(Comma) {
-        pattern(parser);
-    }
-    parser.finish();
-    let is_foreign = parser.at_word("of");
-    if is_foreign {
-        words::replace(parser, "the collection stands after `in`", "in");
-    }
-    if is_foreign || parser.expect(InKeyword) {
-        expression_parsed(parser).height
-    } else {
-        0
-    }
-}
-
-/// A name, or names for the parts of a tuple: `x` or `(a, b)`.
-pub(super) fn pattern(parser: &mut Parser<'_>) {
-    if !parser.at(LeftParen) {
-        return name(parser);
-    }
-    let open = parser.span();
-    parser.start(TuplePattern);
-    parser.bump();
-    parser.separated(RightParen, open, name);
-    parser.finish();
 }

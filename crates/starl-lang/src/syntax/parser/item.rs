@@ -4,9 +4,7 @@ use alloc::format;
 
 use rowan::Checkpoint;
 
-use super::form::form;
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
-use super::{block, slips, stable, statement};
 
 /// Where a declaration stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -17,187 +15,172 @@ pub(super) enum Place {
     Role,
 }
 
-/// The whole file.
-pub(super) fn source_file(parser: &mut Parser<'_>) {
-    // Comments before anything else are part of the file too.
-    parser
-        .builder
-        .start_node(rowan::SyntaxKind(SourceFile as u16));
-    missing_header(parser);
-    items(parser, Place::File);
-    while !parser.at(EndOfFile) {
-        parser.bump();
+impl Parser<'_> {
+    /// The whole file.
+    pub(super) fn source_file(&mut self) {
+        // Comments before anything else are part of the file too.
+        self.builder
+            .start_node(rowan::SyntaxKind(SourceFile as u16));
+        self.missing_header();
+        self.items(Place::File);
+        while !self.at(EndOfFile) {
+            self.bump();
+        }
+        self.flush_trivia();
+        self.finish();
     }
-    parser.flush_trivia();
-    parser.finish();
-}
 
-fn missing_header(parser: &mut Parser<'_>) {
-    let word = if parser.at(Identifier) {
-        parser.word()
-    } else {
-        ""
-    };
-    if matches!(
-        word,
-        "program" | "library" | "agent" | "automaton" | "module"
-    ) || parser.at(Indent)
-    {
-        return;
+    fn missing_header(&mut self) {
+        let word = if self.at(Identifier) { self.word() } else { "" };
+        if matches!(
+            word,
+            "program" | "library" | "agent" | "automaton" | "module"
+        ) || self.at(Indent)
+        {
+            return;
+        }
+        let start = self.span().start;
+        let message = "a file begins with `program` or `library` and its name";
+        let problem = Diagnostic::new(Code::MissingHeader, Span::empty(start), message);
+        self.report(problem.replace(
+            "begin with `program Name`",
+            Span::empty(start),
+            "program Name\n\n",
+        ));
     }
-    let start = parser.span().start;
-    let problem = Diagnostic::new(
-        Code::MissingHeader,
-        Span::empty(start),
-        "a file begins with `program` or `library` and its name",
-    );
-    parser.report(problem.replace(
-        "begin with `program Name`",
-        Span::empty(start),
-        "program Name\n\n",
-    ));
-}
 
-/// Declarations to the end of the file or of the block.
-pub(super) fn items(parser: &mut Parser<'_>, place: Place) {
-    loop {
-        match parser.current() {
-            Dedent | EndOfFile => return,
-            Newline | Semicolon => parser.bump(),
-            Indent if place == Place::File => {
-                block::unexpected_indentation(parser, |parser| indented_items(parser, Place::File));
+    /// Declarations to the end of the file or of the block.
+    pub(super) fn items(&mut self, place: Place) {
+        loop {
+            match self.current() {
+                Dedent | EndOfFile => return,
+                Newline | Semicolon => self.bump(),
+                Indent if place == Place::File => {
+                    self.unexpected_indentation(|parser| parser.indented_items(Place::File));
+                }
+                Indent => {
+                    self.unexpected_indentation(|parser| parser.indented_items(Place::Role));
+                }
+                _ => {
+                    self.item(place);
+                    self.end_line();
+                }
             }
-            Indent => {
-                block::unexpected_indentation(parser, |parser| indented_items(parser, Place::Role));
+        }
+    }
+
+    /// Declarations that are indented for no reason; other lines that are, are left alone.
+    fn indented_items(&mut self, place: Place) {
+        if self.form().is_some() {
+            return self.items(place);
+        }
+        while !matches!(self.current(), Dedent | EndOfFile) {
+            if self.at(Indent) {
+                self.skip_block();
+            } else {
+                self.bump();
+            }
+        }
+    }
+
+    fn item(&mut self, place: Place) {
+        let first = self.position;
+        let start = self.checkpoint_with_documentation();
+        let at = self.span();
+        if let Some((kind, parse)) = self.form() {
+            self.check_place(kind, place, first, at);
+            if kind == VariableDeclaration {
+                self.check_stable_place(place);
+            }
+            parse(self);
+            self.start_at(start, kind);
+            self.finish();
+        } else {
+            self.not_a_declaration(start);
+        }
+    }
+
+    /// Reports a declaration that cannot stand where it does.
+    fn check_place(&mut self, kind: SyntaxKind, place: Place, first: usize, at: Span) {
+        let in_role = matches!(
+            kind,
+            InitDeclaration
+                | ActionDeclaration
+                | HandlerDeclaration
+                | VariableDeclaration
+                | BindingDeclaration
+        );
+        let word = at.of(self.text);
+        if place == Place::Role && !in_role {
+            let message = format!("`{word}` is not allowed in a role");
+            let problem = Diagnostic::new(Code::Misplaced, at, message);
+            self.report(problem.note(
+                "a role contains variables, `init`, actions and handlers; declare the rest outside",
+            ));
+        } else if matches!(kind, ProgramHeader | LibraryHeader) && first > 0 {
+            let message = format!("`{word}` can only be the first line");
+            let problem = Diagnostic::new(Code::Misplaced, at, message);
+            self.report(problem.note("a file holds one program or one library"));
+        }
+    }
+
+    /// Text that is not a declaration.
+    fn not_a_declaration(&mut self, start: Checkpoint) {
+        match self.current() {
+            PreKeyword | EffKeyword => {
+                let problem = Diagnostic::new(
+                    Code::Misplaced,
+                    self.span(),
+                    format!("{} is outside of an action", self.found()),
+                );
+                self.report(
+                    problem.note("it stands indented under the name of an action, as in `pick()`"),
+                );
+                self.skip_line_and_block();
+            }
+            _ if self.is_statement() => {
+                let message = "a statement cannot stand here";
+                let problem = Diagnostic::new(Code::Misplaced, self.span(), message);
+                let note = "statements belong in `init`, in the `eff` of an action, in a handler or a function";
+                self.report(problem.note(note));
+                self.statement(super::statement::Place::OwnLine);
+                self.start_at(start, Error);
+                self.finish();
             }
             _ => {
-                item(parser, place);
-                parser.end_line();
+                self.unexpected("a declaration");
+                self.skip_line_and_block();
             }
         }
     }
-}
 
-/// Declarations that are indented for no reason; other lines that are, are left alone.
-fn indented_items(parser: &mut Parser<'_>, place: Place) {
-    if form(parser).is_some() {
-        return items(parser, place);
-    }
-    while !matches!(parser.current(), Dedent | EndOfFile) {
-        if parser.at(Indent) {
-            parser.skip_block();
-        } else {
-            parser.bump();
+    fn is_statement(&self) -> bool {
+        match self.current() {
+            IfKeyword | ForKeyword | ReturnKeyword => true,
+            Identifier => {
+                let next = self.nth(1);
+                next.is_assignment()
+                    || matches!(next, Dot | LeftParen | LeftBracket | PlusPlus | Bang)
+                    || (self.word() == "atomic" && next == Newline)
+                    || self.foreign_statement().is_some()
+            }
+            _ => false,
         }
     }
-}
 
-fn item(parser: &mut Parser<'_>, place: Place) {
-    let first = parser.position;
-    let start = parser.checkpoint_with_documentation();
-    let at = parser.span();
-    if let Some((kind, parse)) = form(parser) {
-        check_place(parser, kind, place, first, at);
-        if kind == VariableDeclaration {
-            stable::check_place(parser, place);
+    /// The name of the declaration.
+    pub(super) fn name(&mut self) {
+        if self.current().is_keyword() {
+            let message = format!("{} is a keyword and cannot be a name", self.found());
+            let problem = Diagnostic::new(Code::KeywordAsName, self.span(), message);
+            let other = format!("{}_", self.word());
+            let span = self.span();
+            self.report(problem.replace("choose another name", span, other));
+        } else if !self.at(Identifier) {
+            return self.unexpected("a name");
         }
-        parse(parser);
-        parser.start_at(start, kind);
-        parser.finish();
-    } else {
-        other(parser, start);
+        self.start(Name);
+        self.bump();
+        self.finish();
     }
-}
-
-/// Reports a declaration that cannot stand where it does.
-fn check_place(parser: &mut Parser<'_>, kind: SyntaxKind, place: Place, first: usize, at: Span) {
-    let in_role = matches!(
-        kind,
-        InitDeclaration
-            | ActionDeclaration
-            | HandlerDeclaration
-            | VariableDeclaration
-            | BindingDeclaration
-    );
-    let word = at.of(parser.text);
-    if place == Place::Role && !in_role {
-        let problem = Diagnostic::new(
-            Code::Misplaced,
-            at,
-            format!("`{word}` is not allowed in a role"),
-        );
-        parser.report(problem.note(
-            "a role contains variables, `init`, actions and handlers; declare the rest outside",
-        ));
-    } else if matches!(kind, ProgramHeader | LibraryHeader) && first > 0 {
-        let problem = Diagnostic::new(
-            Code::Misplaced,
-            at,
-            format!("`{word}` can only be the first line"),
-        );
-        parser.report(problem.note("a file holds one program or one library"));
-    }
-}
-
-/// Text that is not a declaration.
-fn other(parser: &mut Parser<'_>, start: Checkpoint) {
-    match parser.current() {
-        PreKeyword | EffKeyword => {
-            let problem = Diagnostic::new(
-                Code::Misplaced,
-                parser.span(),
-                format!("{} is outside of an action", parser.found()),
-            );
-            parser.report(
-                problem.note("it stands indented under the name of an action, as in `pick()`"),
-            );
-            parser.skip_line_and_block();
-        }
-        _ if is_statement(parser) => {
-            let problem = Diagnostic::new(
-                Code::Misplaced,
-                parser.span(),
-                "a statement cannot stand here",
-            );
-            let note = "statements belong in `init`, in the `eff` of an action, in a handler or a function";
-            parser.report(problem.note(note));
-            statement::statement(parser, statement::Place::OwnLine);
-            parser.start_at(start, Error);
-            parser.finish();
-        }
-        _ => {
-            parser.unexpected("a declaration");
-            parser.skip_line_and_block();
-        }
-    }
-}
-
-fn is_statement(parser: &Parser<'_>) -> bool {
-    match parser.current() {
-        IfKeyword | ForKeyword | ReturnKeyword => true,
-        Identifier => {
-            let next = parser.nth(1);
-            next.is_assignment()
-                || matches!(next, Dot | LeftParen | LeftBracket | PlusPlus | Bang)
-                || (parser.word() == "atomic" && next == Newline)
-                || slips::foreign_statement(parser).is_some()
-        }
-        _ => false,
-    }
-}
-
-/// The name of the declaration.
-pub(super) fn name(parser: &mut Parser<'_>) {
-    if parser.current().is_keyword() {
-        let message = format!("{} is a keyword and cannot be a name", parser.found());
-        let problem = Diagnostic::new(Code::KeywordAsName, parser.span(), message);
-        let other = format!("{}_", parser.word());
-        let span = parser.span();
-        parser.report(problem.replace("choose another name", span, other));
-    } else if !parser.at(Identifier) {
-        return parser.unexpected("a name");
-    }
-    parser.start(Name);
-    parser.bump();
-    parser.finish();
 }

@@ -61,7 +61,7 @@ pub(crate) fn parse(
         builder: GreenNodeBuilder::new(),
         diagnostics,
     };
-    item::source_file(&mut parser);
+    parser.source_file();
     parser.builder.finish()
 }
 
@@ -141,6 +141,18 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// The kind of the lexeme before the next one.
+    fn previous(&self) -> Option<SyntaxKind> {
+        let before = self.lexemes.get(self.position.checked_sub(1)?)?;
+        Some(before.kind)
+    }
+
+    /// The number of the token with which the next lexeme begins.
+    fn next_token(&self) -> usize {
+        let next = self.lexemes.get(self.position);
+        next.map_or(self.tokens.len(), |lexeme| lexeme.index as usize)
+    }
+
     /// The text of the next lexeme.
     fn word(&self) -> &'a str {
         self.span().of(self.text)
@@ -155,6 +167,23 @@ impl<'a> Parser<'a> {
             .into_iter()
             .find(|lexeme| !matches!(lexeme.kind, Indent | Dedent | Newline));
         last.map_or(0, |last| self.tokens.span(last.index as usize).end)
+    }
+
+    /// Whether an indented block is under the line that ends here.
+    fn at_block(&self) -> bool {
+        self.at(Newline) && self.nth(1) == Indent
+    }
+
+    /// How many lexemes stand before the end of the line or statement, at least `from`.
+    fn line_end(&self, from: usize) -> usize {
+        let ends =
+            |ahead: &usize| matches!(self.nth(*ahead), Newline | Semicolon | Dedent | EndOfFile);
+        (from..).find(ends).unwrap_or(from)
+    }
+
+    /// Whether the bracket that starts here lacks its partner, which is reported.
+    fn is_unpaired(&self, start: u32) -> bool {
+        self.unpaired.binary_search(&start).is_ok()
     }
 
     /// Whether the next lexeme ends what stands on a line.

@@ -1,126 +1,123 @@
 //! Enums, records and messages: types that a program makes.
 
-use super::item::name;
 use alloc::format;
 
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*, types};
-use crate::diagnostic::{Edit, Fix};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
+use crate::diagnostic::Edit;
 
-/// `enum Name {a, b}`.
-pub(super) fn enumeration(parser: &mut Parser<'_>) {
-    parser.bump();
-    name(parser);
-    variants(parser);
-}
-
-/// `{a, b}`.
-pub(super) fn variants(parser: &mut Parser<'_>) {
-    if !matches!(parser.current(), LeftBrace | LeftParen | LeftBracket) {
-        return parser.unexpected("its values in braces, as in `{a, b}`");
+impl Parser<'_> {
+    /// `enum Name {a, b}`.
+    pub(super) fn enumeration(&mut self) {
+        self.bump();
+        self.name();
+        self.variants();
     }
-    parser.start(VariantList);
-    bracketed(parser, LeftBrace, |parser, closing, open| {
-        if parser.at(closing) {
-            parser.unexpected("a name");
+
+    /// `{a, b}`.
+    pub(super) fn variants(&mut self) {
+        if !matches!(self.current(), LeftBrace | LeftParen | LeftBracket) {
+            return self.unexpected("its values in braces, as in `{a, b}`");
         }
-        parser.separated(closing, open, name);
-    });
-    parser.finish();
-}
-
-/// `record Name {x: Int, y: Point}`.
-pub(super) fn record(parser: &mut Parser<'_>) {
-    parser.bump();
-    name(parser);
-    fields(parser, LeftBrace);
-}
-
-/// `message Name(x: Int, y: Point)`.
-pub(super) fn message(parser: &mut Parser<'_>) {
-    parser.bump();
-    name(parser);
-    fields(parser, LeftParen);
-}
-
-fn fields(parser: &mut Parser<'_>, opening: SyntaxKind) {
-    let is_named = parser.last_error != Some(parser.position);
-    if parser.at_line_end() && opening == LeftParen && is_named {
-        let place = Span::empty(parser.end_of_last());
-        let message = "a message has brackets after its name, also without fields";
-        let problem = Diagnostic::new(Code::Unexpected, place, message);
-        return parser.report(problem.replace("write `()`", place, "()"));
+        self.start(VariantList);
+        self.in_any_brackets(LeftBrace, |parser, closing, open| {
+            if parser.at(closing) {
+                parser.unexpected("a name");
+            }
+            parser.separated(closing, open, Self::name);
+        });
+        self.finish();
     }
-    if !matches!(parser.current(), LeftBrace | LeftParen) {
-        let form = if opening == LeftParen {
-            "`(x: Int)`"
-        } else {
-            "`{x: Int}`"
+
+    /// `record Name {x: Int, y: Point}`.
+    pub(super) fn record(&mut self) {
+        self.bump();
+        self.name();
+        self.fields(LeftBrace);
+    }
+
+    /// `message Name(x: Int, y: Point)`.
+    pub(super) fn message(&mut self) {
+        self.bump();
+        self.name();
+        self.fields(LeftParen);
+    }
+
+    fn fields(&mut self, opening: SyntaxKind) {
+        let is_named = self.last_error != Some(self.position);
+        if self.at_line_end() && opening == LeftParen && is_named {
+            let place = Span::empty(self.end_of_last());
+            let message = "a message has brackets after its name, also without fields";
+            let problem = Diagnostic::new(Code::Unexpected, place, message);
+            return self.report(problem.write(place, "()"));
+        }
+        if !matches!(self.current(), LeftBrace | LeftParen) {
+            let form = if opening == LeftParen {
+                "`(x: Int)`"
+            } else {
+                "`{x: Int}`"
+            };
+            return self.unexpected(&alloc::format!("fields in brackets, as in {form}"));
+        }
+        self.start(FieldList);
+        self.in_any_brackets(opening, |parser, closing, open| {
+            parser.separated(closing, open, |parser| parser.typed_name(Field));
+        });
+        self.finish();
+    }
+
+    /// Brackets, the first of which is next, and their contents; reports them if they are not of the kind `opening`.
+    fn in_any_brackets(
+        &mut self,
+        opening: SyntaxKind,
+        inner: impl FnOnce(&mut Self, SyntaxKind, Span),
+    ) {
+        let (found, open) = (self.current(), self.span());
+        let Some(closing) = found.closing() else {
+            return;
         };
-        return parser.unexpected(&alloc::format!("fields in brackets, as in {form}"));
+        self.bump();
+        inner(self, closing, open);
+        let end = self.end_of_last();
+        let close = Span::new(end.saturating_sub(1), end);
+        let texts = (opening.text(), opening.closing().and_then(SyntaxKind::text));
+        if let (Some(left), Some(right)) = texts
+            && found != opening
+            && close.of(self.text) == closing.text().unwrap_or_default()
+        {
+            let message = format!("this is written between `{left}` and `{right}`");
+            let problem = Diagnostic::new(Code::Unexpected, open, message);
+            let edits = [Edit::new(open, left), Edit::new(close, right)];
+            let message = format!("write `{left}` and `{right}`");
+            self.report(problem.edits(message, edits));
+        }
     }
-    parser.start(FieldList);
-    bracketed(parser, opening, |parser, closing, open| {
-        parser.separated(closing, open, |parser| typed_name(parser, Field));
-    });
-    parser.finish();
-}
 
-/// Brackets, the first of which is next, and their contents; reports them if they are not of the kind `opening`.
-fn bracketed(
-    parser: &mut Parser<'_>,
-    opening: SyntaxKind,
-    inner: impl FnOnce(&mut Parser<'_>, SyntaxKind, Span),
-) {
-    let (found, open) = (parser.current(), parser.span());
-    let Some(closing) = found.closing() else {
-        return;
-    };
-    parser.bump();
-    inner(parser, closing, open);
-    let end = parser.end_of_last();
-    let close = Span::new(end.saturating_sub(1), end);
-    let texts = (opening.text(), opening.closing().and_then(SyntaxKind::text));
-    if let (Some(left), Some(right)) = texts
-        && found != opening
-        && close.of(parser.text) == closing.text().unwrap_or_default()
-    {
-        let problem = Diagnostic::new(
-            Code::Unexpected,
-            open,
-            format!("this is written between `{left}` and `{right}`"),
-        );
-        let edits = [Edit::new(open, left), Edit::new(close, right)].into();
-        let message = format!("write `{left}` and `{right}`");
-        parser.report(problem.fix(Fix { message, edits }));
+    /// `name: Type`, a node of the given kind.
+    pub(super) fn typed_name(&mut self, kind: SyntaxKind) {
+        let start = self.checkpoint_with_documentation();
+        self.start_at(start, kind);
+        if self.at(Identifier) && self.nth(1) == Identifier {
+            let (ty, named) = (self.span(), self.nth_span(1));
+            let meant = super::slips::type_of(ty.of(self.text));
+            let form = format!("{}: {meant}", named.of(self.text));
+            let message = "the type stands after the name";
+            let problem = Diagnostic::new(Code::ForeignDeclaration, ty.to(named), message);
+            self.report(problem.write(ty.to(named), form));
+            self.bump_error();
+            self.name();
+            return self.finish();
+        }
+        let named = self.span();
+        let is_name = self.at(Identifier);
+        self.name();
+        if is_name && matches!(self.current(), Comma | RightParen | RightBrace) {
+            let text = named.of(self.text);
+            let problem =
+                Diagnostic::new(Code::Unexpected, named, format!("`{text}` needs a type"));
+            self.report(problem.expected(format!("`{text}: Int` or another type")));
+        } else if self.expect(Colon) {
+            self.any_type();
+        }
+        self.finish();
     }
-}
-
-/// `name: Type`, a node of the given kind.
-pub(super) fn typed_name(parser: &mut Parser<'_>, kind: SyntaxKind) {
-    let start = parser.checkpoint_with_documentation();
-    parser.start_at(start, kind);
-    if parser.at(Identifier) && parser.nth(1) == Identifier {
-        let (ty, named) = (parser.span(), parser.nth_span(1));
-        let meant = super::slips::type_of(ty.of(parser.text));
-        let form = format!("{}: {meant}", named.of(parser.text));
-        let message = "the type stands after the name";
-        let problem = Diagnostic::new(Code::ForeignDeclaration, ty.to(named), message);
-        parser.report(problem.replace(format!("write `{form}`"), ty.to(named), form));
-        parser.start(Error);
-        parser.bump();
-        parser.finish();
-        name(parser);
-        return parser.finish();
-    }
-    let named = parser.span();
-    let is_name = parser.at(Identifier);
-    name(parser);
-    if is_name && matches!(parser.current(), Comma | RightParen | RightBrace) {
-        let text = named.of(parser.text);
-        let problem = Diagnostic::new(Code::Unexpected, named, format!("`{text}` needs a type"));
-        parser.report(problem.expected(format!("`{text}: Int` or another type")));
-    } else if parser.expect(Colon) {
-        types::any(parser);
-    }
-    parser.finish();
 }

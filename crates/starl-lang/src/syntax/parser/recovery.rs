@@ -24,7 +24,7 @@ impl Parser<'_> {
         while !self.at_line_end() {
             self.bump();
         }
-        if self.at(Newline) && self.nth(1) == Indent {
+        if self.at_block() {
             self.bump();
             self.skip_block();
         }
@@ -67,7 +67,7 @@ impl Parser<'_> {
 
     /// Parses the end of a statement or a declaration: the end of the line, or of the block.
     pub fn end_line(&mut self) {
-        let after_block = self.position > 0 && self.lexemes[self.position - 1].kind == Dedent;
+        let after_block = self.previous() == Some(Dedent);
         if !self.at_line_end() && !after_block {
             self.unexpected(Newline.name());
             self.skip_to_line_end();
@@ -80,15 +80,28 @@ impl Parser<'_> {
     /// Takes the closing bracket for the opening one at `open`, or reports that it is missing, unless
     /// that is known.
     pub fn close(&mut self, kind: SyntaxKind, open: Span) {
-        let is_known = |start: u32, parser: &Self| parser.unpaired.binary_search(&start).is_ok();
         if self.at(kind) {
             self.bump();
-        } else if !is_known(open.start, self) {
+        } else if !self.is_unpaired(open.start) {
             self.unexpected(kind.name());
-        } else if self.current().is_closing() && is_known(self.span().start, self) {
+        } else if self.current().is_closing() && self.is_unpaired(self.span().start) {
             // The wrong one in its place.
             self.bump();
         }
+    }
+
+    /// A node of elements with commas between them, in the brackets that are next.
+    pub fn bracketed(
+        &mut self,
+        kind: SyntaxKind,
+        closing: SyntaxKind,
+        element: impl FnMut(&mut Self),
+    ) {
+        let open = self.span();
+        self.start(kind);
+        self.bump();
+        self.separated(closing, open, element);
+        self.finish();
     }
 
     /// Elements with commas between them, from after the opening bracket at `open` to the closing one. Without one, the
@@ -99,7 +112,7 @@ impl Parser<'_> {
         open: Span,
         mut element: impl FnMut(&mut Self),
     ) {
-        let is_paired = self.unpaired.binary_search(&open.start).is_err();
+        let is_paired = !self.is_unpaired(open.start);
         while !self.current().is_closing() && !self.at_line_end() {
             let before = self.position;
             element(self);
@@ -114,7 +127,7 @@ impl Parser<'_> {
                 break;
             }
             self.missing_comma(closing);
-            if self.position == before || !self.starts_operand() {
+            if self.position == before || !self.starts_operand(0) {
                 self.skip_element();
                 self.eat(Comma);
             }
@@ -125,26 +138,21 @@ impl Parser<'_> {
     /// Takes a semicolon that stands for a comma.
     fn semicolon(&mut self) {
         let span = self.span();
-        let problem = Diagnostic::new(
-            Code::Unexpected,
-            span,
-            "commas separate the elements in brackets",
-        );
-        self.report(problem.replace("write `,`", span, ","));
-        self.start(Error);
-        self.bump();
-        self.finish();
+        let message = "commas separate the elements in brackets";
+        let problem = Diagnostic::new(Code::Unexpected, span, message);
+        self.report(problem.write(span, ","));
+        self.bump_error();
     }
 
     fn missing_comma(&mut self, closing: SyntaxKind) {
-        if !self.starts_operand() {
+        if !self.starts_operand(0) {
             return self.unexpected(&alloc::format!("`,` or {}", closing.name()));
         }
         if self.last_error.replace(self.position) == Some(self.position) {
             return;
         }
         let place = Span::empty(self.end_of_last());
-        if super::slips::is_formatted_text(self) {
+        if self.is_formatted_text() {
             let message = "texts do not contain values in braces";
             let problem = Diagnostic::new(Code::Unexpected, self.span(), message);
             let note = "write `log(\"x is {}\", x)`, or `\"x is \" + String(x)`";

@@ -16,7 +16,7 @@ impl Parser<'_> {
     /// Reports that something else must stand here; once for each place.
     pub fn unexpected(&mut self, expected: &str) {
         let start = self.span().start;
-        let known = self.unpaired.binary_search(&start).is_ok() && !self.at_line_end();
+        let known = self.is_unpaired(start) && !self.at_line_end();
         let known = known || self.follows_unknown();
         if self.last_error.replace(self.position) == Some(self.position) || known {
             return;
@@ -34,15 +34,12 @@ impl Parser<'_> {
         let problem = Diagnostic::new(code, span, message)
             .expected(expected)
             .found(found);
-        self.report(super::slips::with_habit(self, expected, problem));
+        self.report(self.with_habit(expected, problem));
     }
 
     /// Whether an invalid character, which is reported, directly precedes the next token.
     pub fn follows_unknown(&self) -> bool {
-        let next = self
-            .lexemes
-            .get(self.position)
-            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
+        let next = self.next_token();
         let mut before = (0..next).rev().map(|index| self.tokens.kind(index));
         before.find(|kind| *kind != Whitespace) == Some(Unknown)
     }

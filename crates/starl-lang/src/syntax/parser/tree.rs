@@ -36,6 +36,13 @@ impl Parser<'_> {
         found
     }
 
+    /// Puts the next lexeme into an `Error`.
+    pub fn bump_error(&mut self) {
+        self.start(Error);
+        self.bump();
+        self.finish();
+    }
+
     /// Puts tokens into the tree, all trivia, up to the one at `index`.
     pub fn flush(&mut self, index: usize) {
         while self.flushed < index {
@@ -52,11 +59,7 @@ impl Parser<'_> {
 
     /// Puts the trivia before the next lexeme into the tree.
     pub fn flush_trivia(&mut self) {
-        let next = self
-            .lexemes
-            .get(self.position)
-            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
-        self.flush(next);
+        self.flush(self.next_token());
     }
 
     /// Starts a node with the next lexeme.
@@ -73,10 +76,7 @@ impl Parser<'_> {
 
     /// A checkpoint before the comments that document the next declaration.
     pub fn checkpoint_with_documentation(&mut self) -> Checkpoint {
-        let next = self
-            .lexemes
-            .get(self.position)
-            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
+        let next = self.next_token();
         let (mut start, mut lines) = (next, 0);
         for index in (self.flushed..next).rev() {
             match self.tokens.kind(index) {
