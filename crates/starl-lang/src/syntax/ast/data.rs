@@ -1,61 +1,34 @@
 //! Types that a program makes: enums, records and messages.
 
-use super::node::{child, children, nodes};
+use super::node::nodes;
 use super::{Name, Type};
 
 nodes! {
     /// `enum Name {a, b}`
-    EnumDeclaration
+    EnumDeclaration {
+        /// The names of its values.
+        variants: [Name] in VariantList,
+    }
     /// `{a, b}`, the values of an enum
-    VariantList
+    VariantList {
+        /// The names.
+        variants: [Name],
+    }
     /// `record Name {x: Int}`
-    RecordDeclaration
+    RecordDeclaration {
+        /// Its fields.
+        fields: [Field] in FieldList,
+    }
     /// `message Name(x: Int)`
-    MessageDeclaration
+    MessageDeclaration {
+        /// Its fields.
+        fields: [Field] in FieldList,
+    }
     /// The fields of a record or a message
     FieldList
     /// `x: Int` in a record or a message
-    Field
-}
-
-impl EnumDeclaration {
-    /// The names of its values.
-    pub fn variants(&self) -> impl Iterator<Item = Name> + use<> {
-        child::<VariantList>(&self.0)
-            .into_iter()
-            .flat_map(|list| list.variants())
-    }
-}
-
-impl VariantList {
-    /// The names.
-    pub fn variants(&self) -> impl Iterator<Item = Name> + use<> {
-        children(&self.0)
-    }
-}
-
-impl RecordDeclaration {
-    /// Its fields.
-    pub fn fields(&self) -> impl Iterator<Item = Field> + use<> {
-        child::<FieldList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
-    }
-}
-
-impl MessageDeclaration {
-    /// Its fields.
-    pub fn fields(&self) -> impl Iterator<Item = Field> + use<> {
-        child::<FieldList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
-    }
-}
-
-impl Field {
-    /// Its type, if that is written.
-    #[must_use]
-    pub fn ty(&self) -> Option<Type> {
-        child(&self.0)
+    Field {
+        /// Its type, if that is written.
+        ty: Type,
     }
 }

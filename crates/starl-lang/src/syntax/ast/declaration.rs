@@ -3,7 +3,7 @@
 use alloc::string::String;
 
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
-use super::node::{after, child, children, children_through_errors, nodes, token, tokens, word};
+use super::node::{after, child, children_through_errors, first_word, nodes, token, tokens, word};
 use super::{Block, Expression, Item, Name, Type, TypeArguments};
 
 nodes! {
@@ -16,39 +16,108 @@ nodes! {
     /// `import name`
     Import
     /// `param name: Type in from..before = default`
-    ParameterDeclaration
+    ParameterDeclaration {
+        /// Its type, if that is written.
+        ty: Type,
+        /// The values that it may have, if that is written.
+        range: ParameterRange,
+        /// Its value, if that is written.
+        value: Expression,
+    }
     /// `in from..before`
-    ParameterRange
+    ParameterRange {
+        /// Its value, if that is written.
+        value: Expression,
+    }
     /// `const name = value`
-    ConstantDeclaration
+    ConstantDeclaration {
+        /// Its type, if that is written.
+        ty: Type,
+        /// Its value, if that is written.
+        value: Expression,
+    }
     /// `name: Type = value` or `stable name: Type = value`
-    VariableDeclaration
+    VariableDeclaration {
+        /// Its type, if that is written.
+        ty: Type,
+        /// The values that it may have, if that is written.
+        range: ParameterRange,
+        /// Its value, if that is written.
+        value: Expression,
+    }
     /// `allread name[RobotId]: Type` or `allwrite name: Type = value`
-    SharedDeclaration
+    SharedDeclaration {
+        /// Its type, if that is written.
+        ty: Type,
+        /// Its value, if that is written.
+        value: Expression,
+    }
     /// `[causal]`
     Consistency
     /// `name = Primitive(arguments)`
-    BindingDeclaration
+    BindingDeclaration {
+        /// Its value, if that is written.
+        value: Expression,
+    }
     /// `function name(a: T) -> V`
-    FunctionDeclaration
+    FunctionDeclaration {
+        /// Its parameters.
+        parameters: [Parameter] in ParameterList,
+        /// The type of its result.
+        result: Type,
+        /// Its value, if that is written.
+        value: Expression,
+        /// Its statements, unless it is written with `=` and a value.
+        body: Block,
+    }
     /// The parameters of a function
     ParameterList
     /// `a: T`
-    Parameter
+    Parameter {
+        /// Its type, if that is written.
+        ty: Type,
+    }
     /// `init` and statements
-    InitDeclaration
+    InitDeclaration {
+        /// Its statements.
+        body: Block,
+    }
     /// `name()` with `pre` and `eff`
-    ActionDeclaration
+    ActionDeclaration {
+        /// Its guard, if it has one.
+        pre: PreClause in ActionBody,
+        /// Its effect.
+        eff: EffClause in ActionBody,
+    }
     /// The clauses under an action's name
     ActionBody
     /// `pre condition` or `pre condition for time`
-    PreClause
+    PreClause {
+        /// The condition.
+        condition: Expression,
+        /// For how long the condition has to hold, if that is written.
+        hold: Expression after ForKeyword,
+    }
     /// `every time`
     EveryClause
     /// `eff` and statements
-    EffClause
+    EffClause {
+        /// The statements.
+        body: Block,
+    }
     /// `on Message(from, a)` or `on input name(a: T)`, and statements
-    HandlerDeclaration
+    HandlerDeclaration {
+        /// The name of the input that it handles, if it is one.
+        input: Name,
+        /// The fields of the input.
+        fields: [Parameter] in ParameterList,
+        /// The message or the primitive's event that it handles; none for an input.
+        event: EventPath,
+        /// The names for the sender and the fields, or for what the event carries.
+        parameters: [Name] in HandlerParameterList,
+        /// Its statements.
+        body: Block,
+    }
     /// `Message` or `primitive.event`
     EventPath
     /// `(from, a)`
@@ -58,9 +127,21 @@ nodes! {
     /// The declarations under a role's name
     RoleBody
     /// `check condition`
-    CheckDeclaration
+    CheckDeclaration {
+        /// The condition.
+        condition: Expression,
+    }
     /// `invariant name: condition` and the like
-    PropertyDeclaration
+    PropertyDeclaration {
+        /// The condition; with [`Self::consequence`], the cause.
+        condition: Expression,
+        /// The condition after `leads_to`, if any.
+        consequence: Expression after "leads_to",
+        /// How long it may be false after a fault has overwritten variables, if `recovers within` is written.
+        recovery: Expression after "recovers",
+        /// The condition after `assuming`, if any.
+        assumption: Expression after "assuming",
+    }
 }
 
 impl SourceFile {
@@ -74,51 +155,7 @@ impl SourceFile {
     }
 }
 
-macro_rules! typed {
-    ($($name:ident)+) => {$(
-        impl $name {
-            /// Its type, if that is written.
-            #[must_use]
-            pub fn ty(&self) -> Option<Type> {
-                child(&self.0)
-            }
-        }
-    )+};
-}
-
-macro_rules! valued {
-    ($($name:ident)+) => {$(
-        impl $name {
-            /// Its value, if that is written.
-            #[must_use]
-            pub fn value(&self) -> Option<Expression> {
-                child(&self.0)
-            }
-        }
-    )+};
-}
-
-typed! { Parameter ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration }
-valued! {
-    ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration BindingDeclaration
-    FunctionDeclaration ParameterRange
-}
-
-impl ParameterDeclaration {
-    /// The values that it may have, if that is written.
-    #[must_use]
-    pub fn range(&self) -> Option<ParameterRange> {
-        child(&self.0)
-    }
-}
-
 impl VariableDeclaration {
-    /// The values that it may have, if that is written.
-    #[must_use]
-    pub fn range(&self) -> Option<ParameterRange> {
-        child(&self.0)
-    }
-
     /// Whether it is declared `stable`.
     #[must_use]
     pub fn is_stable(&self) -> bool {
@@ -147,108 +184,11 @@ impl SharedDeclaration {
     }
 }
 
-impl FunctionDeclaration {
-    /// Its parameters.
-    pub fn parameters(&self) -> impl Iterator<Item = Parameter> + use<> {
-        child::<ParameterList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
-    }
-
-    /// The type of its result.
-    #[must_use]
-    pub fn result(&self) -> Option<Type> {
-        child(&self.0)
-    }
-
-    /// Its statements, unless it is written with `=` and a value.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
-    }
-}
-
-impl InitDeclaration {
-    /// Its statements.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
-    }
-}
-
 impl ActionDeclaration {
-    /// Its guard, if it has one.
-    #[must_use]
-    pub fn pre(&self) -> Option<PreClause> {
-        child(&child::<ActionBody>(&self.0)?.0)
-    }
-
     /// How often it fires at most, if that is written.
     #[must_use]
     pub fn every(&self) -> Option<Expression> {
         child(&child::<EveryClause>(&child::<ActionBody>(&self.0)?.0)?.0)
-    }
-
-    /// Its effect.
-    #[must_use]
-    pub fn eff(&self) -> Option<EffClause> {
-        child(&child::<ActionBody>(&self.0)?.0)
-    }
-}
-
-impl PreClause {
-    /// The condition.
-    #[must_use]
-    pub fn condition(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-
-    /// For how long the condition has to hold, if that is written.
-    #[must_use]
-    pub fn hold(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::ForKeyword)?)
-    }
-}
-
-impl EffClause {
-    /// The statements.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
-    }
-}
-
-impl HandlerDeclaration {
-    /// The name of the input that it handles, if it is one.
-    #[must_use]
-    pub fn input(&self) -> Option<Name> {
-        child(&self.0)
-    }
-
-    /// The fields of the input.
-    pub fn fields(&self) -> impl Iterator<Item = Parameter> + use<> {
-        child::<ParameterList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
-    }
-
-    /// The message or the primitive's event that it handles; none for an input.
-    #[must_use]
-    pub fn event(&self) -> Option<EventPath> {
-        child(&self.0)
-    }
-
-    /// The names for the sender and the fields, or for what the event carries.
-    pub fn parameters(&self) -> impl Iterator<Item = Name> + use<> {
-        child::<HandlerParameterList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
-    }
-
-    /// Its statements.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
     }
 }
 
@@ -268,14 +208,6 @@ impl RoleDeclaration {
     }
 }
 
-impl CheckDeclaration {
-    /// The condition.
-    #[must_use]
-    pub fn condition(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-}
-
 impl PropertyDeclaration {
     /// Whether it must become true at some time, instead of being always true.
     #[must_use]
@@ -292,22 +224,7 @@ impl PropertyDeclaration {
     /// The word that it begins with.
     #[must_use]
     pub fn word(&self) -> String {
-        tokens(&self.0)
-            .next()
-            .map(|token| token.text().into())
-            .unwrap_or_default()
-    }
-
-    /// The condition; with [`Self::consequence`], the cause.
-    #[must_use]
-    pub fn condition(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-
-    /// The condition after `leads_to`, if any.
-    #[must_use]
-    pub fn consequence(&self) -> Option<Expression> {
-        after(&word(&self.0, "leads_to")?)
+        first_word(&self.0)
     }
 
     /// How long it may take, if `within` is written.
@@ -320,18 +237,6 @@ impl PropertyDeclaration {
             token.is_some_and(|token| token.text() == "recovers")
         });
         if is_recovery { None } else { after(&word) }
-    }
-
-    /// How long it may be false after a fault has overwritten variables, if `recovers within` is written.
-    #[must_use]
-    pub fn recovery(&self) -> Option<Expression> {
-        after(&word(&self.0, "recovers")?)
-    }
-
-    /// The condition after `assuming`, if any.
-    #[must_use]
-    pub fn assumption(&self) -> Option<Expression> {
-        after(&word(&self.0, "assuming")?)
     }
 
     /// Whether robots that are down count too.

@@ -3,7 +3,7 @@
 use alloc::string::String;
 
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
-use super::node::{after, before, child, children, choice, nodes, token, tokens};
+use super::node::{after, before, choice, first_word, nodes, token, tokens};
 use super::{
     AstNode, BinaryOperator, BraceExpression, ComprehensionClause, ListExpression,
     LiteralExpression, LoopVariables, Name, Pattern, PrefixOperator,
@@ -13,31 +13,84 @@ nodes! {
     /// A name
     NameExpression
     /// `(value)`
-    ParenthesizedExpression
+    ParenthesizedExpression {
+        /// The expression in the brackets.
+        inner: Expression,
+    }
     /// `(a, b)`
-    TupleExpression
+    TupleExpression {
+        /// The parts.
+        parts: [Expression],
+    }
     /// `value.field` or `tuple.0`
-    FieldExpression
+    FieldExpression {
+        /// The value that has the field.
+        base: Expression,
+    }
     /// `function(arguments)`
-    CallExpression
+    CallExpression {
+        /// The called function or method.
+        callee: Expression,
+        /// The arguments.
+        arguments: [Argument] in ArgumentList,
+    }
     /// `(a, name = b)`
     ArgumentList
     /// `a` or `name = b`
-    Argument
+    Argument {
+        /// Its name, if it has one.
+        name: Name,
+        /// Its value.
+        value: Expression,
+        /// The clause of a comprehension, of which the value is an element.
+        comprehension: ComprehensionClause,
+    }
     /// `collection[index]`
-    IndexExpression
+    IndexExpression {
+        /// The collection.
+        base: Expression before LeftBracket,
+        /// Which element.
+        index: Expression after LeftBracket,
+    }
     /// `optional!`
-    UnwrapExpression
+    UnwrapExpression {
+        /// The optional.
+        base: Expression,
+    }
     /// `-a` or `not a`
-    PrefixExpression
+    PrefixExpression {
+        /// The operand.
+        operand: Expression,
+    }
     /// `a + b`
     BinaryExpression
     /// `some x = optional`
-    SomeExpression
+    SomeExpression {
+        /// The name for the value, or the names for its parts.
+        pattern: Pattern,
+        /// The optional whose value gets the name.
+        value: Expression,
+    }
     /// `if condition then a else b`
-    ConditionalExpression
+    ConditionalExpression {
+        /// The condition.
+        condition: Expression after IfKeyword,
+        /// The value if it holds.
+        then: Expression after ThenKeyword,
+        /// The value if it does not.
+        otherwise: Expression after ElseKeyword,
+    }
     /// `forall r, s: condition` or `exists x in xs: condition`
-    QuantifierExpression
+    QuantifierExpression {
+        /// The names of the robots, where no collection is given.
+        variables: [Name],
+        /// The names for what is in the collection, if one is given.
+        loop_variables: LoopVariables,
+        /// The collection, if one is given.
+        collection: Expression after InKeyword,
+        /// The condition on each robot or element.
+        condition: Expression after Colon,
+    }
 }
 
 choice! {
@@ -115,98 +168,16 @@ impl NameExpression {
     /// The word as text.
     #[must_use]
     pub fn text(&self) -> String {
-        self.token()
-            .map(|token| token.text().into())
-            .unwrap_or_default()
-    }
-}
-
-impl ParenthesizedExpression {
-    /// The expression in the brackets.
-    #[must_use]
-    pub fn inner(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-}
-
-impl TupleExpression {
-    /// The parts.
-    pub fn parts(&self) -> impl Iterator<Item = Expression> + use<> {
-        children(&self.0)
+        first_word(&self.0)
     }
 }
 
 impl FieldExpression {
-    /// The value that has the field.
-    #[must_use]
-    pub fn base(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-
     /// The name of the field, or the number of the part.
     #[must_use]
     pub fn field(&self) -> Option<SyntaxToken> {
         let is_field = |kind| matches!(kind, SyntaxKind::Identifier | SyntaxKind::IntegerLiteral);
         tokens(&self.0).find(|token| is_field(token.kind()))
-    }
-}
-
-impl CallExpression {
-    /// The called function or method.
-    #[must_use]
-    pub fn callee(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-
-    /// The arguments.
-    pub fn arguments(&self) -> impl Iterator<Item = Argument> + use<> {
-        child::<ArgumentList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
-    }
-}
-
-impl Argument {
-    /// Its name, if it has one.
-    #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        child(&self.0)
-    }
-
-    /// Its value.
-    #[must_use]
-    pub fn value(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-}
-
-impl Argument {
-    /// The clause of a comprehension, of which the value is an element.
-    #[must_use]
-    pub fn comprehension(&self) -> Option<ComprehensionClause> {
-        child(&self.0)
-    }
-}
-
-impl IndexExpression {
-    /// The collection.
-    #[must_use]
-    pub fn base(&self) -> Option<Expression> {
-        before(&token(&self.0, SyntaxKind::LeftBracket)?)
-    }
-
-    /// Which element.
-    #[must_use]
-    pub fn index(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::LeftBracket)?)
-    }
-}
-
-impl UnwrapExpression {
-    /// The optional.
-    #[must_use]
-    pub fn base(&self) -> Option<Expression> {
-        child(&self.0)
     }
 }
 
@@ -220,12 +191,6 @@ impl PrefixExpression {
         } else {
             PrefixOperator::of(kind)
         }
-    }
-
-    /// The operand.
-    #[must_use]
-    pub fn operand(&self) -> Option<Expression> {
-        child(&self.0)
     }
 }
 
@@ -266,69 +231,10 @@ impl BinaryExpression {
     }
 }
 
-impl SomeExpression {
-    /// The name for the value, or the names for its parts.
-    #[must_use]
-    pub fn pattern(&self) -> Option<Pattern> {
-        child(&self.0)
-    }
-
-    /// The optional whose value gets the name.
-    #[must_use]
-    pub fn value(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-}
-
-impl ConditionalExpression {
-    /// The condition.
-    #[must_use]
-    pub fn condition(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::IfKeyword)?)
-    }
-
-    /// The value if it holds.
-    #[must_use]
-    pub fn then(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::ThenKeyword)?)
-    }
-
-    /// The value if it does not.
-    #[must_use]
-    pub fn otherwise(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::ElseKeyword)?)
-    }
-}
-
 impl QuantifierExpression {
     /// Whether it is `forall`, rather than `exists`.
     #[must_use]
     pub fn is_universal(&self) -> bool {
-        tokens(&self.0)
-            .next()
-            .is_some_and(|word| word.text() == "forall")
-    }
-
-    /// The names of the robots, where no collection is given.
-    pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
-        children(&self.0)
-    }
-
-    /// The names for what is in the collection, if one is given.
-    #[must_use]
-    pub fn loop_variables(&self) -> Option<LoopVariables> {
-        child(&self.0)
-    }
-
-    /// The collection, if one is given.
-    #[must_use]
-    pub fn collection(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::InKeyword)?)
-    }
-
-    /// The condition on each robot or element.
-    #[must_use]
-    pub fn condition(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::Colon)?)
+        first_word(&self.0) == "forall"
     }
 }

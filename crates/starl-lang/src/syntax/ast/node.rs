@@ -1,6 +1,7 @@
 //! Common code of all node types.
 
 use alloc::boxed::Box;
+use alloc::string::String;
 
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
 use super::Expression;
@@ -37,9 +38,57 @@ pub trait AstNode: Sized {
     }
 }
 
-/// Makes a type for each kind of node of the same name.
+/// Makes a type for each kind of node of the same name, and its methods for the parts in braces.
+///
+/// | part | what the method returns |
+/// | --- | --- |
+/// | `name: Part` | the first part of this type |
+/// | `name: [Part]` | all parts of this type |
+/// | `name: Part in List`, `name: [Part] in List` | the same in the first `List` |
+/// | `name: Part after Token`, `name: Part after "word"` | the first part of this type after the token |
+/// | `name: Expression before Token` | the last expression before the token |
 macro_rules! nodes {
-    ($($(#[$meta:meta])+ $name:ident)+) => {$(
+    (@part $(#[$doc:meta])+ $part:ident [$type:ident]) => {
+        $(#[$doc])+
+        pub fn $part(&self) -> impl Iterator<Item = $type> + use<> {
+            $crate::syntax::ast::node::children(&self.0)
+        }
+    };
+    (@part $(#[$doc:meta])+ $part:ident [$type:ident] in $list:ident) => {
+        $(#[$doc])+
+        pub fn $part(&self) -> impl Iterator<Item = $type> + use<> {
+            use $crate::syntax::ast::{AstNode, node};
+            let list = node::child::<$list>(&self.0).into_iter();
+            list.flat_map(|list| node::children(list.syntax()))
+        }
+    };
+    (@part $(#[$doc:meta])+ $part:ident $type:ident $($place:ident $at:tt)?) => {
+        $(#[$doc])+
+        #[must_use]
+        pub fn $part(&self) -> Option<$type> {
+            nodes! { @find self $($place $at)? }
+        }
+    };
+    (@find $node:ident) => {
+        $crate::syntax::ast::node::child(&$node.0)
+    };
+    (@find $node:ident in $list:ident) => {{
+        use $crate::syntax::ast::{AstNode, node};
+        node::child(node::child::<$list>(&$node.0)?.syntax())
+    }};
+    (@find $node:ident $place:ident $word:literal) => {{
+        use $crate::syntax::ast::node;
+        node::$place(&node::word(&$node.0, $word)?)
+    }};
+    (@find $node:ident $place:ident $token:ident) => {{
+        use $crate::syntax::{SyntaxKind, ast::node};
+        node::$place(&node::token(&$node.0, SyntaxKind::$token)?)
+    }};
+    ($(
+        $(#[$meta:meta])+
+        $name:ident
+        $({ $($(#[$doc:meta])+ $part:ident: $type:tt $($place:ident $at:tt)?,)+ })?
+    )+) => {$(
         $(#[$meta])+
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         pub struct $name($crate::syntax::SyntaxNode);
@@ -53,6 +102,10 @@ macro_rules! nodes {
                 &self.0
             }
         }
+
+        $(impl $name {
+            $(nodes! { @part $(#[$doc])+ $part $type $($place $at)? })+
+        })?
     )+};
 }
 
@@ -98,10 +151,8 @@ impl Name {
 
     /// The word as text; `_` where the value is not wanted.
     #[must_use]
-    pub fn text(&self) -> alloc::string::String {
-        self.token()
-            .map(|token| token.text().into())
-            .unwrap_or_default()
+    pub fn text(&self) -> String {
+        first_word(&self.0)
     }
 }
 
@@ -131,6 +182,12 @@ pub(super) fn tokens(node: &SyntaxNode) -> impl Iterator<Item = SyntaxToken> + u
         .children_with_tokens()
         .filter_map(rowan::NodeOrToken::into_token);
     tokens.filter(|token| !token.kind().is_trivia())
+}
+
+/// The text of the first token directly in a node; empty if there is none.
+pub(super) fn first_word(node: &SyntaxNode) -> String {
+    let first = tokens(node).next();
+    first.map(|token| token.text().into()).unwrap_or_default()
 }
 
 /// The first token of a kind directly in a node.

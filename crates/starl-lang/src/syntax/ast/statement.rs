@@ -1,34 +1,76 @@
 //! Statements.
 
 use super::super::SyntaxToken;
-use super::node::{after, before, child, children, children_through_errors, choice, nodes, tokens};
+use super::node::{after, before, children_through_errors, choice, nodes, tokens};
 use super::{AssignOperator, Expression, Name, Type};
 
 nodes! {
     /// Statements one after another
     Block
     /// `let x = value`
-    LetStatement
+    LetStatement {
+        /// The name of the variable, or the names of the parts of its value.
+        pattern: Pattern,
+        /// The type of the variable, if that is written.
+        ty: Type,
+        /// Its value.
+        value: Expression,
+    }
     /// `x = value`, `x += value`
     AssignStatement
     /// `if`, with its `elif`s and `else`
-    IfStatement
+    IfStatement {
+        /// The `if` and the `elif`s.
+        branches: [IfBranch],
+        /// The `else`, if there is one.
+        otherwise: ElseBranch,
+    }
     /// `if condition` or `elif condition`, with statements
-    IfBranch
+    IfBranch {
+        /// When it is taken.
+        condition: Expression,
+        /// The statements of the branch.
+        body: Block,
+    }
     /// `else`, with statements
-    ElseBranch
+    ElseBranch {
+        /// The statements of the branch.
+        body: Block,
+    }
     /// `for x in xs`, with statements
-    ForStatement
+    ForStatement {
+        /// One variable, or two for a map.
+        variables: [Pattern] in LoopVariables,
+        /// The collection that it iterates over.
+        collection: Expression,
+        /// The statements for each element.
+        body: Block,
+    }
     /// `x` or `k, v`
-    LoopVariables
+    LoopVariables {
+        /// The variables.
+        patterns: [Pattern],
+    }
     /// `(a, b)`, names for the parts of a tuple
-    TuplePattern
+    TuplePattern {
+        /// The names.
+        names: [Name],
+    }
     /// `return value`
-    ReturnStatement
+    ReturnStatement {
+        /// The returned value, if any.
+        value: Expression,
+    }
     /// A call
-    ExpressionStatement
+    ExpressionStatement {
+        /// The call.
+        expression: Expression,
+    }
     /// `atomic`, with statements
-    AtomicStatement
+    AtomicStatement {
+        /// The statements.
+        body: Block,
+    }
 }
 
 choice! {
@@ -61,37 +103,10 @@ choice! {
     }
 }
 
-impl TuplePattern {
-    /// The names.
-    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
-        children(&self.0)
-    }
-}
-
 impl Block {
     /// The statements.
     pub fn statements(&self) -> impl Iterator<Item = Statement> + use<> {
         children_through_errors(&self.0)
-    }
-}
-
-impl LetStatement {
-    /// The name of the variable, or the names of the parts of its value.
-    #[must_use]
-    pub fn pattern(&self) -> Option<Pattern> {
-        child(&self.0)
-    }
-
-    /// The type of the variable, if that is written.
-    #[must_use]
-    pub fn ty(&self) -> Option<Type> {
-        child(&self.0)
-    }
-
-    /// Its value.
-    #[must_use]
-    pub fn value(&self) -> Option<Expression> {
-        child(&self.0)
     }
 }
 
@@ -118,92 +133,5 @@ impl AssignStatement {
     #[must_use]
     pub fn value(&self) -> Option<Expression> {
         after(&self.operator_token()?)
-    }
-}
-
-impl IfStatement {
-    /// The `if` and the `elif`s.
-    pub fn branches(&self) -> impl Iterator<Item = IfBranch> + use<> {
-        children(&self.0)
-    }
-
-    /// The `else`, if there is one.
-    #[must_use]
-    pub fn otherwise(&self) -> Option<ElseBranch> {
-        child(&self.0)
-    }
-}
-
-impl IfBranch {
-    /// When it is taken.
-    #[must_use]
-    pub fn condition(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-
-    /// The statements of the branch.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
-    }
-}
-
-impl ElseBranch {
-    /// The statements of the branch.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
-    }
-}
-
-impl ForStatement {
-    /// One variable, or two for a map.
-    pub fn variables(&self) -> impl Iterator<Item = Pattern> + use<> {
-        child::<LoopVariables>(&self.0)
-            .into_iter()
-            .flat_map(|variables| variables.patterns())
-    }
-
-    /// The collection that it iterates over.
-    #[must_use]
-    pub fn collection(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-
-    /// The statements for each element.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
-    }
-}
-
-impl LoopVariables {
-    /// The variables.
-    pub fn patterns(&self) -> impl Iterator<Item = Pattern> + use<> {
-        children(&self.0)
-    }
-}
-
-impl ReturnStatement {
-    /// The returned value, if any.
-    #[must_use]
-    pub fn value(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-}
-
-impl ExpressionStatement {
-    /// The call.
-    #[must_use]
-    pub fn expression(&self) -> Option<Expression> {
-        child(&self.0)
-    }
-}
-
-impl AtomicStatement {
-    /// The statements.
-    #[must_use]
-    pub fn body(&self) -> Option<Block> {
-        child(&self.0)
     }
 }
