@@ -3,46 +3,14 @@
 use super::Purity::{self, Effect, Property, Pure, Query};
 use super::Signature;
 
-macro_rules! builtins {
-    ($($name:ident = $signature:literal $purity:ident $doc:literal)+) => {
-        /// A built-in function or name.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Builtin {
-            $(#[doc = $doc] $name,)+
-        }
+words! {
+    /// A built-in function or name.
+    Builtin,
+    /// All built-in functions and names.
+    BUILTINS,
+    /// Where it may stand.
+    purity: Purity;
 
-        /// All built-in functions and names.
-        pub const BUILTINS: &[Builtin] = &[$(Builtin::$name,)+];
-
-        impl Builtin {
-            /// Its signature, as text.
-            #[must_use]
-            pub const fn text(self) -> &'static str {
-                match self {
-                    $(Self::$name => $signature,)+
-                }
-            }
-
-            /// Where it may stand.
-            #[must_use]
-            pub const fn purity(self) -> Purity {
-                match self {
-                    $(Self::$name => $purity,)+
-                }
-            }
-
-            /// The documentation shown to users.
-            #[must_use]
-            pub const fn documentation(self) -> &'static str {
-                match self {
-                    $(Self::$name => $doc,)+
-                }
-            }
-        }
-    };
-}
-
-builtins! {
     // The robot.
     Me = "me: RobotId" Query "This robot's number."
     Position = "position: Point" Query "The estimated position of this robot, metres."
@@ -146,11 +114,5 @@ impl Builtin {
     #[must_use]
     pub fn name(self) -> &'static str {
         Signature::name_of(self.text())
-    }
-
-    /// Its signature.
-    #[must_use]
-    pub fn signature(self) -> Signature {
-        Signature::read(self.text())
     }
 }

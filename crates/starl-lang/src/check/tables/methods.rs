@@ -2,46 +2,14 @@
 
 use super::Signature;
 
-macro_rules! methods {
-    ($($name:ident = $signature:literal $changes:ident $doc:literal)+) => {
-        /// A method of a built-in type.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Method {
-            $(#[doc = $doc] $name,)+
-        }
+words! {
+    /// A method of a built-in type.
+    Method,
+    /// All methods.
+    METHODS,
+    /// Whether it changes its receiver.
+    changes: bool;
 
-        /// All methods.
-        pub const METHODS: &[Method] = &[$(Method::$name,)+];
-
-        impl Method {
-            /// Its signature, as text.
-            #[must_use]
-            pub const fn text(self) -> &'static str {
-                match self {
-                    $(Self::$name => $signature,)+
-                }
-            }
-
-            /// Whether it changes its receiver.
-            #[must_use]
-            pub const fn changes(self) -> bool {
-                match self {
-                    $(Self::$name => $changes,)+
-                }
-            }
-
-            /// The documentation shown to users.
-            #[must_use]
-            pub const fn documentation(self) -> &'static str {
-                match self {
-                    $(Self::$name => $doc,)+
-                }
-            }
-        }
-    };
-}
-
-methods! {
     ListSize = "List[T].size() -> Int" false "The number of elements."
     ListAdd = "List[T].add(element: T)" true "Adds an element at the end."
     ListInsert = "List[T].insert(index: Int, element: T)" true "Inserts an element before the one at the index; a run-time error if the index is out of range."
@@ -110,11 +78,5 @@ impl Method {
     #[must_use]
     pub fn adds(self) -> bool {
         matches!(self, Self::ListAdd | Self::SetAdd)
-    }
-
-    /// Its signature.
-    #[must_use]
-    pub fn signature(self) -> Signature {
-        Signature::read(self.text())
     }
 }

@@ -3,6 +3,55 @@
 //! Each entry is one line in the language's own notation (see [`Signature`]). Editors and the reference pages show
 //! these lines.
 
+/// Makes an enum of built-in words from lines of a signature, something about its use, and the documentation.
+macro_rules! words {
+    (
+        $(#[$meta:meta])+ $words:ident, $(#[$all:meta])+ $ALL:ident, $(#[$use:meta])+ $about:ident: $type:ty;
+        $($name:ident = $signature:literal $value:tt $documentation:literal)+
+    ) => {
+        $(#[$meta])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum $words {
+            $(#[doc = $documentation] $name,)+
+        }
+
+        $(#[$all])+
+        pub const $ALL: &[$words] = &[$($words::$name,)+];
+
+        impl $words {
+            /// Its signature, as text.
+            #[must_use]
+            pub const fn text(self) -> &'static str {
+                match self {
+                    $(Self::$name => $signature,)+
+                }
+            }
+
+            /// Its signature.
+            #[must_use]
+            pub fn signature(self) -> Signature {
+                Signature::read(self.text())
+            }
+
+            $(#[$use])+
+            #[must_use]
+            pub const fn $about(self) -> $type {
+                match self {
+                    $(Self::$name => $value,)+
+                }
+            }
+
+            /// The documentation shown to users.
+            #[must_use]
+            pub const fn documentation(self) -> &'static str {
+                match self {
+                    $(Self::$name => $documentation,)+
+                }
+            }
+        }
+    };
+}
+
 mod builtins;
 mod methods;
 mod primitives;
