@@ -10,7 +10,7 @@ use super::resolution::Symbol;
 use super::shape::Letters;
 use super::state::Checker;
 use super::tables::{Shape, Signature};
-use crate::diagnostic::{Code, Diagnostic, Edit, Fix, Span};
+use crate::diagnostic::{Code, Diagnostic, Edit, Span};
 use crate::ir::{Expression, Type};
 use crate::syntax::ast::{self, AstNode};
 
@@ -129,18 +129,14 @@ impl Checker {
         }
         diagnostics.truncate(diagnostics.len() - 2);
         let texts = [first, second].map(|span| self.text(span).to_string());
-        let problem = Diagnostic::new(
-            Code::WrongType,
-            first,
-            "these arguments are in the wrong order",
-        );
+        let message = "these arguments are in the wrong order";
+        let problem = Diagnostic::new(Code::WrongType, first, message);
         let [one, other] = texts;
-        let edits = [Edit::new(first, other), Edit::new(second, one)].into();
-        let message = "swap them".into();
+        let edits = [Edit::new(first, other), Edit::new(second, one)];
         self.report(
             problem
                 .label(second, "this is the first")
-                .fix(Fix { message, edits }),
+                .edits("swap them", edits),
         );
     }
 
@@ -326,8 +322,8 @@ impl Checker {
         });
     }
 
-    /// Checks the arguments of something that cannot be called.
-    pub fn check_anyway(&mut self, arguments: &[ast::Argument]) {
+    /// Checks the arguments of something that cannot be called, which is reported.
+    pub fn broken_call(&mut self, arguments: &[ast::Argument], span: Span) -> Expression {
         for argument in arguments {
             let can_be_checked =
                 |value: &ast::Expression| !self.needs_hint(value) || self.holds_probe(value);
@@ -335,5 +331,6 @@ impl Checker {
                 self.infer(Some(value), None);
             }
         }
+        broken(span)
     }
 }

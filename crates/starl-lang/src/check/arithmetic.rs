@@ -133,7 +133,7 @@ impl Checker {
         match int.kind {
             ExpressionKind::Int(_) => {
                 let float = format!("{}.0", self.text(int.span));
-                problem.replace(format!("write `{float}`"), int.span, float)
+                problem.write(int.span, float)
             }
             _ => problem.fix(around(
                 "convert it with `Float(...)`",

@@ -32,7 +32,7 @@ impl Checker {
         if self.is_of_sensors(signature.name, at)
             || !self.allowed(builtin.purity(), signature.name, at)
         {
-            self.check_anyway(arguments);
+            self.broken_call(arguments, at);
             let ty = self.shape_type(&signature.result, &Letters::new());
             return made(ExpressionKind::Error, something(ty), span);
         }

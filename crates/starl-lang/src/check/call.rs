@@ -40,8 +40,7 @@ impl Checker {
             Some(callee) => {
                 let value = self.infer(Some(callee), None);
                 self.not_callable(&value);
-                self.check_anyway(&arguments);
-                broken(span)
+                self.broken_call(&arguments, span)
             }
             None => broken(span),
         }
@@ -64,8 +63,7 @@ impl Checker {
         let span = argument.span();
         let message = "only `min` and `max`, without other arguments, take elements like this";
         let problem = Diagnostic::new(Code::Misplaced, span, message);
-        self.report(problem.fix(around("put it in brackets: a list", span, "[", "]")));
-        broken(span)
+        self.refuse(problem.fix(around("put it in brackets: a list", span, "[", "]")))
     }
 
     fn call_name(
@@ -102,8 +100,7 @@ impl Checker {
         } else {
             self.unknown_function(&name, at);
         }
-        self.check_anyway(arguments);
-        broken(span)
+        self.broken_call(arguments, span)
     }
 
     fn unknown_function(&mut self, name: &str, span: Span) {
@@ -142,15 +139,11 @@ impl Checker {
         match entity {
             Entity::Function(id) => self.call_function(id, arguments, span),
             Entity::Record(id) => self.make_record(id, arguments, span),
-            Entity::Broken => {
-                self.check_anyway(arguments);
-                broken(span)
-            }
+            Entity::Broken => self.broken_call(arguments, span),
             _ => {
                 let message = format!("`{name}` is {} and cannot be called", entity.what());
                 self.error(Code::NotCallable, span, message);
-                self.check_anyway(arguments);
-                broken(span)
+                self.broken_call(arguments, span)
             }
         }
     }
@@ -227,10 +220,7 @@ impl Checker {
         match field.base().and_then(|base| self.namespace(&base)) {
             Some(Entity::Library(file)) => match self.library_entity(file, name, at) {
                 Some(entity) => self.call_entity(entity, name, arguments, span),
-                None => {
-                    self.check_anyway(arguments);
-                    broken(span)
-                }
+                None => self.broken_call(arguments, span),
             },
             Some(Entity::Binding(id)) => self.call_primitive(id, name, at, arguments, span),
             Some(Entity::Enum(id)) => {
@@ -238,10 +228,7 @@ impl Checker {
                 self.not_callable(&value);
                 broken(span)
             }
-            Some(_) => {
-                self.check_anyway(arguments);
-                broken(span)
-            }
+            Some(_) => self.broken_call(arguments, span),
             None => self.call_method(field, name, at, arguments, span),
         }
     }
@@ -255,8 +242,7 @@ impl Checker {
         span: Span,
     ) -> Expression {
         let Some(member) = self.primitive_member(id, name, at) else {
-            self.check_anyway(arguments);
-            return broken(span);
+            return self.broken_call(arguments, span);
         };
         let signature = member.signature();
         if !signature.is_call {
@@ -264,7 +250,7 @@ impl Checker {
             let problem = Diagnostic::new(Code::NotCallable, at, message);
             let brackets = Span::new(at.end, span.end);
             self.report(problem.replace("remove the brackets", brackets, ""));
-            self.check_anyway(arguments);
+            self.broken_call(arguments, at);
             return self.primitive_value(id, member, Vec::new(), &signature, at, span);
         }
         self.resolve_arguments(arguments, member.text, &signature);
@@ -288,8 +274,7 @@ impl Checker {
         let was_read = root.is_none_or(|root| self.is_read(root));
         let receiver = self.infer(field.base(), None);
         let Some(method) = self.method(&receiver, name, at) else {
-            self.check_anyway(arguments);
-            return broken(span);
+            return self.broken_call(arguments, span);
         };
         let signature = method.signature();
         let mut letters = Letters::new();

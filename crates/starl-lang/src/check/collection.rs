@@ -65,8 +65,7 @@ impl Checker {
         if elements.is_empty() && hint.is_none() {
             if let Some(Type::Map(..)) = there(expected) {
                 let problem = Diagnostic::new(Code::WrongType, span, "`{}` is the empty set");
-                self.report(problem.replace("write `{:}`, the empty map", span, "{:}"));
-                return broken(span);
+                return self.refuse(problem.replace("write `{:}`, the empty map", span, "{:}"));
             }
             return self.unclear(span, expected, "set", "let x: Set[Int] = {}");
         }
@@ -141,11 +140,8 @@ impl Checker {
             if *ty == Type::Error {
                 return broken(span);
             }
-            let problem = Diagnostic::new(
-                Code::WrongType,
-                span,
-                format!("a {what} has the wrong type here"),
-            );
+            let message = format!("a {what} has the wrong type here");
+            let problem = Diagnostic::new(Code::WrongType, span, message);
             problem
                 .expected(self.name_of(ty))
                 .found(format!("an empty {what}"))
@@ -154,8 +150,7 @@ impl Checker {
             let problem = Diagnostic::new(Code::UnclearType, span, message);
             problem.note(format!("declare its type, as in `{form}`"))
         };
-        self.report(problem);
-        broken(span)
+        self.refuse(problem)
     }
 
     /// Elements of one type: the one that is expected, else that of the first that has one.
@@ -268,13 +263,9 @@ impl Checker {
         let problem = problem
             .expected("what `<` compares")
             .found(self.name_of(&key.ty));
-        self.report(match key.ty {
-            Type::Optional(_) => {
-                problem.note("leave out those without a key: `if some k = ... by k`")
-            }
-            _ => problem,
-        });
-        broken(key.span)
+        let note = "leave out those without a key: `if some k = ... by k`";
+        let is_optional = matches!(key.ty, Type::Optional(_));
+        self.refuse(problem.note_if(is_optional.then_some(note)))
     }
 
     /// `base[index]`.
@@ -328,20 +319,14 @@ impl Checker {
         if !is_negative {
             return;
         }
-        let problem = Diagnostic::new(
-            Code::NegativeIndex,
-            index.span,
-            "no element has an index below 0",
-        );
+        let message = "no element has an index below 0";
+        let problem = Diagnostic::new(Code::NegativeIndex, index.span, message);
         let problem =
             problem.note("the last element is `xs.last()`, an optional, or `xs[xs.size() - 1]`");
         let is_last = self.text(index.span) == "-1";
         let list = self.text(base).to_string();
         self.report(match is_last {
-            true => {
-                let form = format!("{list}[{list}.size() - 1]");
-                problem.replace(format!("write `{form}`"), whole, form)
-            }
+            true => problem.write(whole, format!("{list}[{list}.size() - 1]")),
             false => problem,
         });
     }

@@ -210,7 +210,7 @@ impl Checker {
         let unit = dimension.unit();
         if let ExpressionKind::Float(_) = number.kind {
             let meant = format!("{}{unit}", self.text(number.span));
-            return problem.replace(format!("write `{meant}`"), number.span, meant);
+            return problem.write(number.span, meant);
         }
         problem.note(format!("give it a unit: multiply it by `1{unit}`"))
     }

@@ -168,14 +168,12 @@ impl Checker {
                     Diagnostic::new(Code::WrongType, span, "`none` is not a value of this type");
                 let name = self.name_of(ty);
                 let note = format!("only an optional, `{name}?`, may be none");
-                self.report(problem.expected(name).found("none").note(note));
-                broken(span)
+                self.refuse(problem.expected(name).found("none").note(note))
             }
             None => {
                 let message = "the type of this `none` is unknown";
                 let problem = Diagnostic::new(Code::UnclearType, span, message);
-                self.report(problem.note("declare its type, as in `let x: Point? = none`"));
-                broken(span)
+                self.refuse(problem.note("declare its type, as in `let x: Point? = none`"))
             }
         }
     }
@@ -328,8 +326,7 @@ impl Checker {
             let note = format!(
                 "in properties it is about all robots; here name a collection, as in `{word} r in peers: ...`"
             );
-            self.report(problem.note(note));
-            return broken(span);
+            return self.refuse(problem.note(note));
         }
         let mark = self.body.enter();
         let robots = (node.variables())

@@ -5,7 +5,7 @@ use alloc::format;
 use alloc::string::String;
 
 use super::dimension::split_unit;
-use super::report::{around, broken};
+use super::report::around;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Fix, Span};
 use crate::ir::{Expression, ExpressionKind, Type};
@@ -113,8 +113,7 @@ impl Checker {
     /// A range where a value must stand.
     pub fn misplaced_range(&mut self, span: Span) -> Expression {
         let problem = Diagnostic::new(Code::MisplacedRange, span, "a range is not a value");
-        self.report(problem.note("it stands after `in`: in `for i in 0..n` or `x in 0..n`"));
-        broken(span)
+        self.refuse(problem.note("it stands after `in`: in `for i in 0..n` or `x in 0..n`"))
     }
 
     fn misfit(&self, value: &Expression, expected: &Type, role: &str) -> Diagnostic {

@@ -17,10 +17,10 @@ impl Checker {
                  robot, with its own variables"
             ));
         }
-        if let Some((_, note)) = HABITS.iter().find(|(word, _)| *word == name) {
-            let problem = problem.note(*note);
+        if let Some(note) = habit(name) {
+            let problem = problem.note(note);
             return match self.rewritten(name, span) {
-                Some((whole, form)) => problem.replace(format!("write `{form}`"), whole, form),
+                Some((whole, form)) => problem.write(whole, form),
                 None => problem,
             };
         }
@@ -149,14 +149,10 @@ impl Checker {
             "to_float" | "toFloat" => (format!("Float({value})"), whole),
             "to_int" | "toInt" => (format!("Int({value})"), whole),
             _ => {
-                let note = MEMBERS.iter().find(|(words, _)| words.contains(&name));
-                return match note {
-                    Some((_, note)) => problem.note(*note),
-                    None => problem,
-                };
+                return problem.note_if(member_habit(name));
             }
         };
-        problem.replace(format!("write `{form}`"), span, form)
+        problem.write(span, form)
     }
 
     /// Adds the fix for `self.x`, which is written `x`.
@@ -288,110 +284,57 @@ fn usual_name(kind: &Primitive) -> &'static str {
     }
 }
 
-/// Whether the name is known from other languages.
-pub(super) fn is_habit(name: &str) -> bool {
-    HABITS.iter().any(|(word, _)| *word == name)
+/// A note on a method that other languages have.
+fn member_habit(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "pop" | "pop_back" | "shift" => {
+            "`xs.last()` reads the last element, and `xs.remove_at(xs.size() - 1)` removes it"
+        }
+        "clear" => "assign an empty one: `xs = []`, or `{}` for a set and `{:}` for a map",
+        "put" | "set" | "insert" | "update" | "setdefault" => {
+            "`m[key] = value` sets the value of a key"
+        }
+        "items" | "entries" => "`for k, v in m` goes over the keys and their values",
+        "max" | "min" => "`max(x for x in xs)` is the greatest element, and none of an empty list",
+        "map" | "filter" => "write `[f(x) for x in xs if condition]`",
+        "extend" | "concat" | "addAll" => "`xs + ys` joins two lists",
+        "norm" | "length" | "magnitude" | "len" => {
+            "`distance(p, Point(0.0, 0.0))` is the length of a point"
+        }
+        "copy" | "clone" => "an assignment copies: `let y = x`",
+        "get" | "at" => "`xs[i]` is the element at an index",
+        _ => return None,
+    })
 }
 
-/// Methods that other languages have, and what takes their place.
-const MEMBERS: &[(&[&str], &str)] = &[
-    (
-        &["pop", "pop_back", "shift"],
-        "`xs.last()` reads the last element, and `xs.remove_at(xs.size() - 1)` removes it",
-    ),
-    (
-        &["clear"],
-        "assign an empty one: `xs = []`, or `{}` for a set and `{:}` for a map",
-    ),
-    (
-        &["put", "set", "insert", "update", "setdefault"],
-        "`m[key] = value` sets the value of a key",
-    ),
-    (
-        &["items", "entries"],
-        "`for k, v in m` goes over the keys and their values",
-    ),
-    (
-        &["max", "min"],
-        "`max(x for x in xs)` is the greatest element, and none of an empty list",
-    ),
-    (
-        &["map", "filter"],
-        "write `[f(x) for x in xs if condition]`",
-    ),
-    (&["extend", "concat", "addAll"], "`xs + ys` joins two lists"),
-    (
-        &["norm", "length", "magnitude", "len"],
-        "`distance(p, Point(0.0, 0.0))` is the length of a point",
-    ),
-    (&["copy", "clone"], "an assignment copies: `let y = x`"),
-    (&["get", "at"], "`xs[i]` is the element at an index"),
-];
-
-/// Names that other languages have, and what takes their place.
-const HABITS: &[(&str, &str)] = &[
-    (
-        "len",
-        "lists, sets, maps and texts have a size: `xs.size()`",
-    ),
-    (
-        "length",
-        "lists, sets, maps and texts have a size: `xs.size()`",
-    ),
-    ("range", "`for i in 0..n` counts from 0 to below `n`"),
-    (
-        "enumerate",
-        "`for i in 0..xs.size()` counts the elements, and `xs[i]` is one",
-    ),
-    ("sum", "a list has a sum: `xs.sum()`"),
-    (
-        "sorted",
-        "a list can be sorted: `xs.sorted()`, or `[x for x in xs by key]`",
-    ),
-    ("reversed", "a list can be reversed: `xs.reversed()`"),
-    ("any", "write `exists x in xs: condition`"),
-    ("all", "write `forall x in xs: condition`"),
-    ("filter", "write `[x for x in xs if condition]`"),
-    ("map", "write `[f(x) for x in xs]`"),
-    (
-        "sleep",
-        "nothing waits in an effect: write `pre condition for 5s`, or `every 5s`, in an action",
-    ),
-    (
-        "wait",
-        "nothing waits in an effect: write `pre condition for 5s`, or `every 5s`, in an action",
-    ),
-    (
-        "delay",
-        "nothing waits in an effect: write `pre condition for 5s`, or `every 5s`, in an action",
-    ),
-    (
-        "Duration",
-        "a number becomes a time by multiplication: `n * 1s`",
-    ),
-    (
-        "seconds",
-        "a number becomes a time by multiplication: `n * 1s`",
-    ),
-    ("Time", "a moment is `now`, or a sum such as `now + 5s`"),
-    ("Bool", "write a comparison, such as `n != 0`"),
-    ("List", "a list is written `[a, b]`, and an empty one `[]`"),
-    ("list", "a list is written `[a, b]`, and an empty one `[]`"),
-    ("Set", "a set is written `{a, b}`, and an empty one `{}`"),
-    ("set", "a set is written `{a, b}`, and an empty one `{}`"),
-    ("Map", "a map is written `{k: v}`, and an empty one `{:}`"),
-    ("dict", "a map is written `{k: v}`, and an empty one `{:}`"),
-    (
-        "assert",
-        "declare a property, `always name: condition`, which is judged on every run",
-    ),
-    (
-        "lambda",
-        "functions are not values: declare one with `function`",
-    ),
-    (
-        "Motion",
-        "bind a primitive, `motion = ReachAvoid()`: `motion.reach_avoid(target, obstacles())` drives, and \
-         `motion.done` is true on arrival",
-    ),
-];
+/// A note on a name that other languages have.
+pub(super) fn habit(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "len" | "length" => "lists, sets, maps and texts have a size: `xs.size()`",
+        "range" => "`for i in 0..n` counts from 0 to below `n`",
+        "enumerate" => "`for i in 0..xs.size()` counts the elements, and `xs[i]` is one",
+        "sum" => "a list has a sum: `xs.sum()`",
+        "sorted" => "a list can be sorted: `xs.sorted()`, or `[x for x in xs by key]`",
+        "reversed" => "a list can be reversed: `xs.reversed()`",
+        "any" => "write `exists x in xs: condition`",
+        "all" => "write `forall x in xs: condition`",
+        "filter" => "write `[x for x in xs if condition]`",
+        "map" => "write `[f(x) for x in xs]`",
+        "sleep" | "wait" | "delay" => {
+            "nothing waits in an effect: write `pre condition for 5s`, or `every 5s`, in an action"
+        }
+        "Duration" | "seconds" => "a number becomes a time by multiplication: `n * 1s`",
+        "Time" => "a moment is `now`, or a sum such as `now + 5s`",
+        "Bool" => "write a comparison, such as `n != 0`",
+        "List" | "list" => "a list is written `[a, b]`, and an empty one `[]`",
+        "Set" | "set" => "a set is written `{a, b}`, and an empty one `{}`",
+        "Map" | "dict" => "a map is written `{k: v}`, and an empty one `{:}`",
+        "assert" => "declare a property, `always name: condition`, which is judged on every run",
+        "lambda" => "functions are not values: declare one with `function`",
+        "Motion" => {
+            "bind a primitive, `motion = ReachAvoid()`: `motion.reach_avoid(target, obstacles())` drives, and \
+             `motion.done` is true on arrival"
+        }
+        _ => return None,
+    })
+}

@@ -97,12 +97,8 @@ impl Checker {
                     Type::List(element) => matches!(**element, Type::Record(_)),
                     _ => false,
                 };
-                self.report(if is_record {
-                    problem
-                        .note("give each part a field of its own, such as `at: Point, count: Int`")
-                } else {
-                    problem
-                });
+                let note = "give each part a field of its own, such as `at: Point, count: Int`";
+                self.report(problem.note_if(is_record.then_some(note)));
             }
             let ty = if is_known { ty } else { Type::Error };
             fields.push((name, ty, span));

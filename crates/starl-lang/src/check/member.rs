@@ -17,59 +17,6 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
 use crate::syntax::ast::{self, AstNode};
 
-/// Names from other languages, with StarL's.
-const FOREIGN: &[(&str, &str)] = &[
-    ("length", "size"),
-    ("len", "size"),
-    ("count", "size"),
-    ("push", "add"),
-    ("append", "add"),
-    ("insert_at", "insert"),
-    ("sort", "sorted"),
-    ("reverse", "reversed"),
-    ("find", "index_of"),
-    ("indexOf", "index_of"),
-    ("delete", "remove"),
-    ("discard", "remove"),
-    ("erase", "remove"),
-    ("has_key", "contains"),
-    ("containsKey", "contains"),
-    ("sublist", "slice"),
-    ("lowercase", "lower"),
-    ("toLowerCase", "lower"),
-    ("uppercase", "upper"),
-    ("toUpperCase", "upper"),
-    ("strip", "trim"),
-    ("startsWith", "starts_with"),
-    ("endsWith", "ends_with"),
-    ("parse", "to_int"),
-    ("toInt", "to_int"),
-    ("toFloat", "to_float"),
-    ("goto", "reach_avoid"),
-    ("go_to", "reach_avoid"),
-    ("move_to", "reach_avoid"),
-    ("drive_to", "reach_avoid"),
-    ("reached", "done"),
-    ("arrived", "done"),
-    ("lock", "acquire"),
-    ("unlock", "release"),
-    ("locked", "held"),
-    ("publish", "broadcast"),
-    ("includes", "contains"),
-    ("has", "contains"),
-    ("doneFlag", "done"),
-    ("activeFlag", "active"),
-    ("failFlag", "failed"),
-    ("doReachAvoid", "reach_avoid"),
-    ("do_reach_avoid", "reach_avoid"),
-    ("do_mutex", "acquire"),
-    ("crit", "held"),
-    ("do_register", "register"),
-    ("undo_register", "unregister"),
-    ("rList", "members"),
-    ("do_election", "elect"),
-];
-
 /// The coordinates of a point.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -196,10 +143,9 @@ impl Checker {
         let message = format!("{} has no `{name}`", primitive.name());
         let problem = Diagnostic::new(Code::UnknownMember, at, message);
         let names = || primitive.members.iter().map(Member::name);
-        let foreign = FOREIGN.iter().find(|(word, _)| *word == name);
-        let foreign = foreign.filter(|(_, meant)| names().any(|own| own == *meant));
+        let foreign = foreign_member(name).filter(|meant| names().any(|own| own == *meant));
         let problem = match foreign {
-            Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), at, *meant),
+            Some(meant) => problem.replace(format!("did you mean `{meant}`?"), at, meant),
             None => did_you_mean(problem, at, name, names()),
         };
         let problem = problem.note(format!("it has {}", listed(names())));
@@ -207,11 +153,8 @@ impl Checker {
             .iter()
             .filter(|other| other.member(name).is_some());
         let others: Vec<&str> = others.map(Primitive::name).collect();
-        self.report(if others.is_empty() {
-            problem
-        } else {
-            problem.note(format!("`{name}` belongs to {}", listed(others)))
-        });
+        let note = format!("`{name}` belongs to {}", listed(others.iter().copied()));
+        self.report(problem.note_if((!others.is_empty()).then_some(note)));
         None
     }
 
@@ -441,14 +384,13 @@ impl Checker {
             let brackets = Span::new(at.end, end);
             return self.report(problem.replace("remove the brackets", brackets, ""));
         }
-        let foreign = FOREIGN.iter().find(|(word, _)| *word == name);
-        let foreign = foreign.filter(|(_, meant)| names.contains(meant));
+        let foreign = foreign_member(name).filter(|meant| names.contains(meant));
         let hinted = self.member_hint(problem.clone(), base.span, name, at);
         if hinted != reported && foreign.is_none() {
             return self.report(hinted);
         }
         let problem = match foreign {
-            Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), at, *meant),
+            Some(meant) => problem.replace(format!("did you mean `{meant}`?"), at, meant),
             None => did_you_mean(problem, at, name, names.iter().copied()),
         };
         let function = Builtin::named(name).filter(|builtin| {
@@ -464,18 +406,16 @@ impl Checker {
                         let comma = if rest.is_empty() { "" } else { ", " };
                         let form = format!("{name}({value}{comma}{rest})");
                         let whole = Span::new(base.span.start, inner.end + 1);
-                        problem.replace(format!("write `{form}`"), whole, form)
+                        problem.write(whole, form)
                     }
                     None => problem,
                 }
             }
             None => problem,
         };
-        self.report(if names.is_empty() {
-            problem
-        } else {
-            problem.note(format!("it has {}", listed(names)))
-        });
+        let has_members = !names.is_empty();
+        let note = format!("it has {}", listed(names));
+        self.report(problem.note_if(has_members.then_some(note)));
     }
 
     /// The name under which the methods of a type are listed.
@@ -489,4 +429,41 @@ impl Checker {
             _ => "",
         }
     }
+}
+
+/// StarL's name of a member that other languages, Koord or the thesis have.
+fn foreign_member(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "length" | "len" | "count" => "size",
+        "push" | "append" => "add",
+        "insert_at" => "insert",
+        "sort" => "sorted",
+        "reverse" => "reversed",
+        "find" | "indexOf" => "index_of",
+        "delete" | "discard" | "erase" => "remove",
+        "has_key" | "containsKey" | "includes" | "has" => "contains",
+        "sublist" => "slice",
+        "lowercase" | "toLowerCase" => "lower",
+        "uppercase" | "toUpperCase" => "upper",
+        "strip" => "trim",
+        "startsWith" => "starts_with",
+        "endsWith" => "ends_with",
+        "parse" | "toInt" => "to_int",
+        "toFloat" => "to_float",
+        "goto" | "go_to" | "move_to" | "drive_to" | "doReachAvoid" | "do_reach_avoid" => {
+            "reach_avoid"
+        }
+        "reached" | "arrived" | "doneFlag" => "done",
+        "lock" | "do_mutex" => "acquire",
+        "unlock" => "release",
+        "locked" | "crit" => "held",
+        "publish" => "broadcast",
+        "activeFlag" => "active",
+        "failFlag" => "failed",
+        "do_register" => "register",
+        "undo_register" => "unregister",
+        "rList" => "members",
+        "do_election" => "elect",
+        _ => return None,
+    })
 }

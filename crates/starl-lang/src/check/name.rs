@@ -131,8 +131,7 @@ impl Checker {
                 let message = format!("`{}` is a kind of primitive, not a value", primitive.name());
                 let problem = Diagnostic::new(Code::NoValue, span, message);
                 let form = format!("bind one to a name: `name = {}`", primitive.constructor);
-                self.report(problem.note(form));
-                broken(span)
+                self.refuse(problem.note(form))
             }
             Meaning::Role => {
                 let Some(variable) = self.program.roles.as_ref().map(|roles| roles.variable) else {
@@ -287,8 +286,7 @@ impl Checker {
         let message = format!("there is no `{name}`");
         let problem = Diagnostic::new(Code::UnknownName, span, message);
         let problem = self.suggest(problem, name, span);
-        self.report(problem);
-        broken(span)
+        self.refuse(problem)
     }
 
     /// Reports a variant that an enum does not have.
@@ -306,8 +304,7 @@ impl Checker {
         };
         let problem = did_you_mean(problem, span, name, names());
         let list = format!("it has {}", super::report::listed(names()));
-        self.report(problem.note(list));
-        broken(span)
+        self.refuse(problem.note(list))
     }
 
     /// Suggests the name that was probably meant, among all visible names.
@@ -318,13 +315,13 @@ impl Checker {
         if let Some(problem) = self.quotient_of_units(&problem, name, span) {
             return problem;
         }
-        if let Some((_, meant)) = FOREIGN.iter().find(|(word, _)| *word == name) {
+        if let Some(meant) = foreign_name(name) {
             let is_value = Builtin::named(meant).is_some_and(|own| !own.signature().is_call);
             let brackets = self
                 .arguments_after(span)
                 .filter(|inner| is_value && inner.start == inner.end);
             let span = brackets.map_or(span, |inner| Span::new(span.start, inner.end + 1));
-            return problem.replace(format!("did you mean `{meant}`?"), span, *meant);
+            return problem.replace(format!("did you mean `{meant}`?"), span, meant);
         }
         let locals = self.body.names.iter().map(|(name, _)| name.as_str());
         let declared = self.files[self.file as usize].scope.keys();
@@ -334,7 +331,7 @@ impl Checker {
             .chain(declared.clone().map(String::as_str))
             .chain(builtins)
             .chain(variants.map(String::as_str));
-        if super::hints::is_habit(name) {
+        if super::hints::habit(name).is_some() {
             return self.hint(problem, name, span);
         }
         let problem = if self.is_of_primitive(span) {
@@ -349,52 +346,29 @@ impl Checker {
     }
 }
 
-/// Names from the thesis, Koord and other languages, with StarL's.
-const FOREIGN: &[(&str, &str)] = &[
-    ("pid", "me"),
-    ("self", "me"),
-    ("my_id", "me"),
-    ("id", "me"),
-    ("myId", "me"),
-    ("robot_id", "me"),
-    ("time", "now"),
-    ("clock", "now"),
-    ("pos", "position"),
-    ("undefined", "none"),
-    ("NULL", "none"),
-    ("TRUE", "true"),
-    ("FALSE", "false"),
-    ("exit", "finish"),
-    ("quit", "finish"),
-    ("robots", "peers"),
-    ("others", "peers"),
-    ("neighbors", "peers"),
-    ("neighbours", "peers"),
-    ("my_position", "position"),
-    ("pose", "position"),
-    ("getId", "me"),
-    ("getPos", "position"),
-    ("getpos", "position"),
-    ("getObstacles", "obstacles"),
-    ("getInput", "way_points"),
-    ("null", "none"),
-    ("nil", "none"),
-    ("None", "none"),
-    ("True", "true"),
-    ("False", "false"),
-    ("print", "log"),
-    ("println", "log"),
-    ("printf", "log"),
-    ("str", "String"),
-    ("numAgents", "peers.size()"),
-    ("raise", "fail"),
-    ("throw", "fail"),
-    ("panic", "fail"),
-    ("rand", "random"),
-    ("randint", "random_int"),
-    ("uniform", "random"),
-    ("choice", "choose"),
-];
+/// StarL's name of something from the thesis, Koord or another language.
+fn foreign_name(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "pid" | "self" | "my_id" | "id" | "myId" | "robot_id" | "getId" => "me",
+        "time" | "clock" => "now",
+        "pos" | "my_position" | "pose" | "getPos" | "getpos" => "position",
+        "undefined" | "NULL" | "null" | "nil" | "None" => "none",
+        "TRUE" | "True" => "true",
+        "FALSE" | "False" => "false",
+        "exit" | "quit" => "finish",
+        "robots" | "others" | "neighbors" | "neighbours" => "peers",
+        "getObstacles" => "obstacles",
+        "getInput" => "way_points",
+        "print" | "println" | "printf" => "log",
+        "str" => "String",
+        "numAgents" => "peers.size()",
+        "raise" | "throw" | "panic" => "fail",
+        "rand" | "uniform" => "random",
+        "randint" => "random_int",
+        "choice" => "choose",
+        _ => return None,
+    })
+}
 
 /// Readings of a robot's sensors.
 const OF_SENSORS: [&str; 6] = [

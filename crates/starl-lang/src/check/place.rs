@@ -106,7 +106,7 @@ impl Checker {
                 self.report(problem);
                 return no_place(span);
             }
-            if super::hints::is_habit(name) {
+            if super::hints::habit(name).is_some() {
                 let problem = self.hint(problem, name, span);
                 self.report(problem);
                 return no_place(span);
@@ -242,7 +242,7 @@ impl Checker {
         if !is_own && index.ty != Type::Error {
             let message = format!("a robot writes only its own element of `{name}`");
             let problem = Diagnostic::new(Code::ForeignElement, index.span, message);
-            let problem = problem.replace("write `me`", index.span, "me");
+            let problem = problem.write(index.span, "me");
             let note = "use `allwrite` for a variable that all robots write, or send a message";
             self.report(problem.note(note));
             return no_place(span);

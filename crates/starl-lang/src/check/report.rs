@@ -24,6 +24,13 @@ impl Checker {
         file.checked.diagnostics.push(problem);
     }
 
+    /// Reports the problem of a whole expression.
+    pub fn refuse(&mut self, problem: Diagnostic) -> Expression {
+        let span = problem.span;
+        self.report(problem);
+        broken(span)
+    }
+
     /// Reports a problem with a short message.
     pub fn error(&mut self, code: Code, span: Span, message: impl Into<String>) {
         self.report(Diagnostic::new(code, span, message));

@@ -239,10 +239,7 @@ impl Checker {
         let is_call = matches!(node.expression(), Some(ast::Expression::Call(_)));
         if is_idle && is_call && !value.ty.has_error() {
             let problem = Diagnostic::new(Code::UnusedValue, span, "the value of this is not used");
-            self.report(match sibling(&value) {
-                Some(note) => problem.note(note),
-                None => problem,
-            });
+            self.report(problem.note_if(sibling(&value)));
         }
         StatementKind::Evaluate(value)
     }

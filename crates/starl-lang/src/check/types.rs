@@ -63,7 +63,7 @@ impl Checker {
                     let message = "a single-writer variable has an element for each robot";
                     let problem = Diagnostic::new(Code::WrongType, index.span(), message);
                     let problem = problem.expected("RobotId").found(self.name_of(&ty));
-                    self.report(problem.replace("write `RobotId`", index.span(), "RobotId"));
+                    self.report(problem.write(index.span(), "RobotId"));
                 }
             }
             self.program.shared[number].ty = self.written_or_error(node.ty());
@@ -188,7 +188,7 @@ impl Checker {
         let meant = format!("{}?", inner.map_or("T", |inner| self.text(inner)));
         let message = format!("there is no type `{word}`");
         let problem = Diagnostic::new(Code::UnknownType, named.span(), message);
-        self.report(problem.replace(format!("write `{meant}`"), named.span(), meant));
+        self.report(problem.write(named.span(), meant));
         Type::Error
     }
 
@@ -261,11 +261,8 @@ impl Checker {
         if self.may_be_unread(name) {
             return Type::Error;
         }
-        let problem = Diagnostic::new(
-            Code::UnknownType,
-            span,
-            format!("there is no type `{name}`"),
-        );
+        let message = format!("there is no type `{name}`");
+        let problem = Diagnostic::new(Code::UnknownType, span, message);
         if Primitive::named(name).is_some() {
             let before = self.text(Span::new(0, span.start)).trim_end();
             let place = Span::new(before.len().saturating_sub(1) as u32, span.end);
@@ -274,7 +271,7 @@ impl Checker {
             self.report(match before.strip_suffix(':') {
                 Some(_) => {
                     let meant = format!(" = {name}()");
-                    problem.replace(format!("write `{}`", meant.trim()), place, meant)
+                    problem.write(place, meant)
                 }
                 None => problem.note(format!("a primitive is bound to a name: `name = {name}()`")),
             });

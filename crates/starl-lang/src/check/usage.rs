@@ -68,11 +68,8 @@ impl Checker {
             Entity::Variable(_) | Entity::Shared(_) => {
                 let message = format!("`{name}` is never read");
                 let problem = Diagnostic::new(Code::NeverRead, span, message);
-                self.report(if self.usage.written.contains(&entity) {
-                    problem.note("it is only written")
-                } else {
-                    problem
-                });
+                let is_written = self.usage.written.contains(&entity);
+                self.report(problem.note_if(is_written.then_some("it is only written")));
             }
             Entity::Function(_) | Entity::Constant(_) if self.program.is_library => {}
             Entity::Parameter(_)

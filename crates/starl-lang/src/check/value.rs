@@ -30,23 +30,15 @@ impl Checker {
                 let first = self.program[id].variants.first();
                 let form =
                     first.map(|variant| format!("a value is written `{}.{}`", name, variant.name));
-                self.report(match form {
-                    Some(form) => problem.note(form),
-                    None => problem,
-                });
-                broken(span)
+                self.refuse(problem.note_if(form))
             }
-            Entity::Function(_) | Entity::Record(_) => {
+            Entity::Function(_) | Entity::Record(_) | Entity::Binding(_) | Entity::Library(_) => {
                 let message = format!("`{name}` is {}, not a value", entity.what());
                 let problem = Diagnostic::new(Code::NoValue, span, message);
-                self.report(problem.note(format!("call it: `{name}(...)`")));
-                broken(span)
-            }
-            Entity::Binding(_) | Entity::Library(_) => {
-                let message = format!("`{name}` is {}, not a value", entity.what());
-                let problem = Diagnostic::new(Code::NoValue, span, message);
-                self.report(problem.note(format!("its declarations are named `{name}.something`")));
-                broken(span)
+                self.refuse(problem.note(match entity {
+                    Entity::Function(_) | Entity::Record(_) => format!("call it: `{name}(...)`"),
+                    _ => format!("its declarations are named `{name}.something`"),
+                }))
             }
         }
     }
@@ -108,8 +100,7 @@ impl Checker {
                 let message = format!("`{name}` has no value yet");
                 let problem = Diagnostic::new(Code::UsedTooEarly, span, message);
                 let note = "variables get their initial values in the order of the text";
-                self.report(problem.note(note));
-                return broken(span);
+                return self.refuse(problem.note(note));
             }
             Where::Property => return self.property_variable(id, name, span),
             Where::Constant | Where::Function | Where::Binding => {
@@ -139,8 +130,7 @@ impl Checker {
         let problem = Diagnostic::new(Code::InvalidProperty, span, message);
         let robot = (self.body.names.last()).map_or("r", |(robot, _)| robot.as_str());
         let meant = format!("{robot}.{member}");
-        self.report(problem.replace(format!("did you mean `{meant}`?"), span, meant));
-        broken(span)
+        self.refuse(problem.replace(format!("did you mean `{meant}`?"), span, meant))
     }
 
     /// The robot that a property without quantifier is about.
