@@ -10,3 +10,11 @@ pub struct Site {
     /// The name, or the word that begins the declaration if it has none.
     pub span: Span,
 }
+
+impl Site {
+    /// The beginning of the program.
+    pub const START: Self = Self {
+        file: 0,
+        span: Span::empty(0),
+    };
+}

@@ -130,6 +130,12 @@ impl<'p> Body<'_, 'p> {
         }
     }
 
+    /// Calls a function of the host that returns nothing.
+    pub fn tell(&mut self, function: HostFunction, arguments: &[Argument<'p>]) -> Compiled {
+        let nowhere = self.take(Size::NONE)?;
+        self.host(function, arguments, &Type::Nothing, nowhere, false)
+    }
+
     /// Asks the host for a value.
     pub fn ask(
         &mut self,

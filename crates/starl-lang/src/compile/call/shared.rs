@@ -140,8 +140,7 @@ impl<'p> Body<'_, 'p> {
     pub fn write_shared(&mut self, id: SharedId, member: &str, value: &'p Expression) -> Compiled {
         let import = self.shared_function(id, member);
         let arguments = [self.shared_instance(id), Argument::Value(value)];
-        let nowhere = self.take(Size::NONE)?;
-        self.host(import, &arguments, &Type::Nothing, nowhere, false)
+        self.tell(import, &arguments)
     }
 
     /// Passes the value of a shared variable that was changed in registers to the host.

@@ -14,7 +14,6 @@ use crate::compile::body::Body;
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::compile::unit::{Finished, Routine, Unit};
-use crate::diagnostic::Span;
 use crate::ir;
 use crate::ir::{Local, Site, Type};
 use crate::machine::FunctionKind;
@@ -75,17 +74,17 @@ impl<'p> Unit<'p> {
     }
 
     fn nothing(&mut self, name: &str) -> Finished {
-        let site = Site {
-            file: 0,
-            span: Span::empty(0),
-        };
-        let mut body = Body::new(self, FunctionKind::Procedure, &[], site);
-        body.end();
-        body.finish(name, Vec::new(), Vec::new())
+        Body::new(self, FunctionKind::Procedure, &[], Site::START).procedure(name)
     }
 }
 
 impl<'p> Body<'_, 'p> {
+    /// The function, complete, which takes and returns nothing.
+    fn procedure(mut self, name: &str) -> Finished {
+        self.end();
+        self.finish(name, Vec::new(), Vec::new())
+    }
+
     /// Compiles a part of the function that has locals of its own.
     fn part<T>(
         &mut self,

@@ -1,7 +1,6 @@
 //! The code that runs on entering a role.
 
 use alloc::format;
-use alloc::vec::Vec;
 
 use crate::compile::body::Body;
 use crate::compile::body::Location;
@@ -37,8 +36,7 @@ impl<'p> Unit<'p> {
             body.leave(Size::NONE);
             body.place(next);
         }
-        body.end();
-        Ok(body.finish("role.enter", Vec::new(), Vec::new()))
+        Ok(body.procedure("role.enter"))
     }
 
     fn does_something(&self, role: u16) -> bool {
@@ -64,8 +62,6 @@ impl<'p> Unit<'p> {
         if let Some(entry) = &role.entry {
             body.part(&entry.locals, role.site, |body| body.block(&entry.body))?;
         }
-        body.end();
-        let name = format!("{}.enter", role.name);
-        Ok(body.finish(&name, Vec::new(), Vec::new()))
+        Ok(body.procedure(&format!("{}.enter", role.name)))
     }
 }

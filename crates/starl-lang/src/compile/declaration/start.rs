@@ -10,7 +10,6 @@ use crate::compile::call::{Argument, HostFunction, shared_kind};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::compile::unit::{Finished, Routine, Unit};
-use crate::diagnostic::Span;
 use crate::ir;
 use crate::ir::{Consistency, Site, Type};
 use crate::machine::FunctionKind;
@@ -35,18 +34,13 @@ impl<'p> Unit<'p> {
                 body.store(place, value, &parameter.ty)
             })?;
         }
-        body.end();
-        Ok(Some(body.finish("defaults", Vec::new(), Vec::new())))
+        Ok(Some(body.procedure("defaults")))
     }
 
     /// The code that runs at the start of a program.
     pub fn start(&mut self) -> Compiled<Finished> {
         let program = self.program;
-        let site = Site {
-            file: 0,
-            span: Span::empty(0),
-        };
-        let mut body = Body::new(self, FunctionKind::Procedure, &[], site);
+        let mut body = Body::new(self, FunctionKind::Procedure, &[], Site::START);
         for (number, binding) in program.bindings.iter().enumerate() {
             body.bind_primitive(number as u32, binding)?;
         }
@@ -60,28 +54,16 @@ impl<'p> Unit<'p> {
                 body.recall(id)?;
             }
         }
-        if program.init.is_some() {
-            body.run(Routine::Init)?;
-        }
-        if program.roles.is_some() {
-            body.run(Routine::Enter)?;
-        }
-        body.end();
-        Ok(body.finish("start", Vec::new(), Vec::new()))
+        body.run_init()?;
+        Ok(body.procedure("start"))
     }
 
     /// Restarts the program when a check is false: primitives stop, variables get their initial values, and `init`
     /// runs. The role does not change.
     pub fn reset(&mut self) -> Compiled<Finished> {
         let program = self.program;
-        let site = Site {
-            file: 0,
-            span: Span::empty(0),
-        };
-        let mut body = Body::new(self, FunctionKind::Procedure, &[], site);
-        let nowhere = body.take(Size::NONE)?;
-        let reset = HostFunction::effect("reset");
-        body.host(reset, &[], &Type::Nothing, nowhere, false)?;
+        let mut body = Body::new(self, FunctionKind::Procedure, &[], Site::START);
+        body.tell(HostFunction::effect("reset"), &[])?;
         let role = program.roles.as_ref().map(|roles| roles.variable);
         for number in 0..program.variables.len() {
             let id = ir::VariableId(number as u32);
@@ -89,32 +71,32 @@ impl<'p> Unit<'p> {
                 body.initialize(id, true)?;
             }
         }
-        if program.init.is_some() {
-            body.run(Routine::Init)?;
-        }
-        if program.roles.is_some() {
-            body.run(Routine::Enter)?;
-        }
-        body.end();
-        Ok(body.finish("reset", Vec::new(), Vec::new()))
+        body.run_init()?;
+        Ok(body.procedure("reset"))
     }
 
     pub fn init(&mut self) -> Compiled<Finished> {
-        let site = Site {
-            file: 0,
-            span: Span::empty(0),
-        };
         let Some(init) = &self.program.init else {
             return Ok(self.nothing("init"));
         };
-        let mut body = Body::new(self, FunctionKind::Procedure, &init.locals, site);
+        let mut body = Body::new(self, FunctionKind::Procedure, &init.locals, Site::START);
         body.block(&init.body)?;
-        body.end();
-        Ok(body.finish("init", Vec::new(), Vec::new()))
+        Ok(body.procedure("init"))
     }
 }
 
 impl<'p> Body<'_, 'p> {
+    /// Runs `init`, and that of the role.
+    fn run_init(&mut self) -> Compiled {
+        if self.unit.program.init.is_some() {
+            self.run(Routine::Init)?;
+        }
+        if self.unit.program.roles.is_some() {
+            self.run(Routine::Enter)?;
+        }
+        Ok(())
+    }
+
     fn bind_primitive(&mut self, number: u32, binding: &'p ir::Binding) -> Compiled {
         let Some(kind) = binding.primitive else {
             return Err(self.broken());
@@ -124,8 +106,7 @@ impl<'p> Body<'_, 'p> {
             let signature = Signature::read(kind.constructor);
             arguments.extend(body.arguments(&signature, &binding.arguments)?);
             let import = HostFunction::effect(&format!("{}.bind", kind.name()));
-            let nowhere = body.take(Size::NONE)?;
-            body.host(import, &arguments, &Type::Nothing, nowhere, false)
+            body.tell(import, &arguments)
         })
     }
 
@@ -141,8 +122,7 @@ impl<'p> Body<'_, 'p> {
                     named => Some(named.name()),
                 }),
             ];
-            let nowhere = body.take(Size::NONE)?;
-            body.host(import, &arguments, &Type::Nothing, nowhere, false)?;
+            body.tell(import, &arguments)?;
             if let Some(initial) = &shared.initial {
                 body.write_shared(id, "initialize", initial)?;
             }

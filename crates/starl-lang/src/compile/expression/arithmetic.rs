@@ -101,33 +101,20 @@ impl<'p> Body<'_, 'p> {
         let instruction = match (left_type, right_type) {
             (Type::Int, Type::Int) => integers(operator, to_scalar, l, r),
             (Type::Float, Type::Float) => floats(operator, to_scalar, l, r),
-            (Type::Point, Type::Point) => match operator {
-                Operator::Add => Instruction::AddPoint {
-                    to: to.point_out(),
-                    left: left.point(),
-                    right: right.point(),
-                },
-                _ => Instruction::SubtractPoint {
-                    to: to.point_out(),
-                    left: left.point(),
-                    right: right.point(),
-                },
-            },
+            (Type::Point, Type::Point) => {
+                let (to, left, right) = (to.point_out(), left.point(), right.point());
+                match operator {
+                    Operator::Add => Instruction::AddPoint { to, left, right },
+                    _ => Instruction::SubtractPoint { to, left, right },
+                }
+            }
             (Type::Point, _) if operator == Operator::Divide => Instruction::DividePoint {
                 to: to.point_out(),
                 from: left.point(),
                 divisor: r,
             },
-            (Type::Point, _) => Instruction::ScalePoint {
-                to: to.point_out(),
-                from: left.point(),
-                factor: r,
-            },
-            (_, Type::Point) => Instruction::ScalePoint {
-                to: to.point_out(),
-                from: right.point(),
-                factor: l,
-            },
+            (Type::Point, _) => scale_point(to, left, r),
+            (_, Type::Point) => scale_point(to, right, l),
             _ => return self.span_of_time(operator, [left_type, right_type], to, [left, right]),
         };
         self.emit(instruction);
@@ -159,6 +146,14 @@ impl<'p> Body<'_, 'p> {
             },
         });
         Ok(())
+    }
+}
+
+fn scale_point(to: Slot, from: Slot, factor: In) -> Instruction {
+    Instruction::ScalePoint {
+        to: to.point_out(),
+        from: from.point(),
+        factor,
     }
 }
 

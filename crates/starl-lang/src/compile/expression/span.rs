@@ -16,45 +16,20 @@ impl<'p> Body<'_, 'p> {
         to: Slot,
         [left, right]: [Slot; 2],
     ) -> Compiled {
-        let (output, l, r) = (to.output(), left.input(), right.input());
+        let (slot, to) = (to, to.output());
+        let (left, right) = (left.input(), right.input());
+        let multiply = |span, times| Instruction::MultiplySpan { to, span, times };
+        let scale = |span, factor| Instruction::ScaleSpan { to, span, factor };
         let instruction = match (operator, left_type, right_type) {
-            (Operator::Add, ..) => Instruction::AddInt {
-                to: output,
-                left: l,
-                right: r,
-            },
-            (Operator::Subtract, ..) => Instruction::SubtractSpan {
-                to: output,
-                left: l,
-                right: r,
-            },
-            (Operator::Multiply, Type::Int, _) => Instruction::MultiplySpan {
-                to: output,
-                span: r,
-                times: l,
-            },
-            (Operator::Multiply, _, Type::Int) => Instruction::MultiplySpan {
-                to: output,
-                span: l,
-                times: r,
-            },
-            (Operator::Multiply, Type::Float, _) => Instruction::ScaleSpan {
-                to: output,
-                span: r,
-                factor: l,
-            },
-            (Operator::Multiply, ..) => Instruction::ScaleSpan {
-                to: output,
-                span: l,
-                factor: r,
-            },
-            (_, _, Type::Duration) => Instruction::RatioSpan {
-                to: output,
-                left: l,
-                right: r,
-            },
-            (_, _, Type::Int) => return self.divide_span(to, l, r),
-            _ => return self.divide_span_by_float(to, l, r),
+            (Operator::Add, ..) => Instruction::AddInt { to, left, right },
+            (Operator::Subtract, ..) => Instruction::SubtractSpan { to, left, right },
+            (Operator::Multiply, Type::Int, _) => multiply(right, left),
+            (Operator::Multiply, _, Type::Int) => multiply(left, right),
+            (Operator::Multiply, Type::Float, _) => scale(right, left),
+            (Operator::Multiply, ..) => scale(left, right),
+            (_, _, Type::Duration) => Instruction::RatioSpan { to, left, right },
+            (_, _, Type::Int) => return self.divide_span(slot, left, right),
+            _ => return self.divide_span_by_float(slot, left, right),
         };
         self.emit(instruction);
         Ok(())

@@ -18,17 +18,8 @@ impl<'p> Body<'_, 'p> {
         if value.ty == Type::String {
             return self.into(value, to, true);
         }
-        self.empty_text(to)?;
+        self.clear(to, &Type::String)?;
         self.append_value(to.object_in_out(), value)
-    }
-
-    fn empty_text(&mut self, to: Slot) -> Compiled {
-        let kind = self.object_type(&Type::String)?;
-        self.emit(Instruction::ClearObject {
-            to: to.object_out(),
-            kind,
-        });
-        Ok(())
     }
 
     /// Puts the text of a value at the end of a text.
@@ -128,10 +119,7 @@ impl<'p> Body<'_, 'p> {
         is_within: bool,
     ) -> Compiled {
         let (none, end) = (self.label(), self.label());
-        self.emit(Instruction::JumpUnless {
-            condition: slot.input(),
-            target: none.target(),
-        });
+        self.jump_on(slot, false, none);
         self.append_part(text, slot.at(Size::SCALAR), inner, is_within)?;
         self.jump(end);
         self.place(none);

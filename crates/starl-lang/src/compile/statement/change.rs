@@ -92,10 +92,7 @@ impl<'p> Body<'_, 'p> {
         let found = self.take(Size::new(2, 0))?;
         self.find(ObjectIn(list.0), ty, item, found)?;
         let end = self.label();
-        self.emit(Instruction::JumpUnless {
-            condition: found.input(),
-            target: end.target(),
-        });
+        self.jump_on(found, false, end);
         self.emit(Instruction::ListRemoveAt {
             list,
             index: found.at(Size::SCALAR).input(),
