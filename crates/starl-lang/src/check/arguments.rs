@@ -203,9 +203,7 @@ impl Checker {
                     Some(_) => {
                         let message = format!("`{}` is given twice", parameters.names[position].0);
                         self.error(Code::ArgumentCount, argument.span(), message);
-                        if !self.needs_hint(&value) || self.holds_probe(&value) {
-                            self.infer(Some(value), None);
-                        }
+                        self.infer_alone(Some(value));
                         is_doubled = true;
                     }
                     None if parameters.takes_values => rest.push((None, value)),
@@ -325,11 +323,7 @@ impl Checker {
     /// Checks the arguments of something that cannot be called, which is reported.
     pub fn broken_call(&mut self, arguments: &[ast::Argument], span: Span) -> Expression {
         for argument in arguments {
-            let can_be_checked =
-                |value: &ast::Expression| !self.needs_hint(value) || self.holds_probe(value);
-            if let Some(value) = argument.value().filter(can_be_checked) {
-                self.infer(Some(value), None);
-            }
+            self.infer_alone(argument.value());
         }
         broken(span)
     }

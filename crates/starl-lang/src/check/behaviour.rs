@@ -1,11 +1,11 @@
 //! The behaviour of a program: `init` and actions.
 
-use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::body::Where;
 use super::collect::{first_word, name_of};
+use super::report::{joined, made};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::*;
@@ -13,11 +13,7 @@ use crate::syntax::ast::{self, AstNode, Documented, Item};
 
 impl Checker {
     pub fn check_init(&mut self, role: Option<u16>, node: &ast::InitDeclaration) {
-        let (body, locals) = self.in_body(Where::Effect, |checker| {
-            let body = checker.block(node.body());
-            checker.check_touched();
-            body
-        });
+        let (body, locals) = self.in_body(Where::Effect, |checker| checker.effect(node.body()));
         let procedure = Procedure { locals, body };
         let roles = self.program.roles.as_mut();
         let place = match role {
@@ -44,10 +40,8 @@ impl Checker {
             .iter()
             .find(|other| other.role == role && other.name == name.text);
         if let Some(first) = same {
-            let message = format!("there are two actions `{}`", name.text);
-            let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
-            let problem = problem.label(first.site.span, "the first one");
-            self.report(problem);
+            let first = first.site.span;
+            self.duplicate("actions", &name.text, name.span, first);
         }
         let (parts, locals) = self.in_body(Where::Guard, |checker| {
             checker.body.is_action = true;
@@ -60,11 +54,7 @@ impl Checker {
             let every = time(checker, node.every(), "the time between two firings");
             let guard = match node.pre() {
                 Some(pre) => checker.expect(pre.condition(), &Type::Bool, "the guard"),
-                None => Expression {
-                    kind: ExpressionKind::Bool(true),
-                    ty: Type::Bool,
-                    span: name.span,
-                },
+                None => made(ExpressionKind::Bool(true), Type::Bool, name.span),
             };
             let bound = checker.body.names.iter();
             let mut bindings: Vec<LocalId> = bound
@@ -72,22 +62,16 @@ impl Checker {
                 .collect();
             bindings.dedup();
             checker.body.place = Where::Effect;
-            let effect = checker.block(node.eff().and_then(|eff| eff.body()));
-            checker.check_touched();
+            let effect = checker.effect(node.eff().and_then(|eff| eff.body()));
             let atomic = checker.linearizable();
             (guard, bindings, effect, atomic, hold, every)
         });
         let (guard, bindings, effect, atomic, hold, every) = parts;
         let guard = match self.in_role(role, name.span) {
-            Some(in_role) => Expression {
-                span: guard.span,
-                ty: Type::Bool,
-                kind: ExpressionKind::Binary {
-                    operator: Operator::And,
-                    left: alloc::boxed::Box::new(in_role),
-                    right: alloc::boxed::Box::new(guard),
-                },
-            },
+            Some(in_role) => {
+                let span = guard.span;
+                joined(Operator::And, in_role, guard, Type::Bool, span)
+            }
             None => guard,
         };
         let site = self.site(name.span);
@@ -104,6 +88,13 @@ impl Checker {
             site,
             documentation: Item::Action(node.clone()).documentation().to_string(),
         });
+    }
+
+    /// The statements of an effect.
+    pub fn effect(&mut self, node: Option<ast::Block>) -> Vec<Statement> {
+        let body = self.block(node);
+        self.check_touched();
+        body
     }
 
     /// `check condition`.
@@ -136,21 +127,8 @@ impl Checker {
     pub fn in_role(&self, role: Option<u16>, span: Span) -> Option<Expression> {
         let variable = self.program.roles.as_ref()?.variable;
         let ty = self.program[variable].ty.clone();
-        let part = |kind| {
-            alloc::boxed::Box::new(Expression {
-                kind,
-                ty: ty.clone(),
-                span,
-            })
-        };
-        Some(Expression {
-            kind: ExpressionKind::Binary {
-                operator: Operator::Equal,
-                left: part(ExpressionKind::Variable(variable)),
-                right: part(ExpressionKind::Variant(role?)),
-            },
-            ty: Type::Bool,
-            span,
-        })
+        let left = made(ExpressionKind::Variable(variable), ty.clone(), span);
+        let right = made(ExpressionKind::Variant(role?), ty, span);
+        Some(joined(Operator::Equal, left, right, Type::Bool, span))
     }
 }

@@ -49,8 +49,7 @@ impl Checker {
         if self.body.find(name).is_some() {
             return true;
         }
-        let scope = &self.files[self.file as usize].scope;
-        match scope.get(name).map(|declared| declared.entity) {
+        match self.declared(self.file, name) {
             Some(entity) => matches!(
                 entity,
                 Entity::Parameter(_)
@@ -70,9 +69,8 @@ impl Checker {
             self.body.read(local);
             return;
         }
-        let scope = &self.files[self.file as usize].scope;
-        if let Some(declared) = scope.get(braced.name()) {
-            self.usage.used.insert(declared.entity);
+        if let Some(entity) = self.declared(self.file, braced.name()) {
+            self.usage.used.insert(entity);
         }
     }
 }

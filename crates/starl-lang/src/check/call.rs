@@ -75,8 +75,7 @@ impl Checker {
         let name = node.text();
         let at = node.span();
         let local = self.body.find(&name).is_some();
-        let scope = &self.files[self.file as usize].scope;
-        let declared = scope.get(&name).map(|declared| declared.entity);
+        let declared = self.declared(self.file, &name);
         let callable = matches!(
             declared,
             Some(Entity::Function(_) | Entity::Record(_) | Entity::Broken)
@@ -89,10 +88,9 @@ impl Checker {
             self.resolve(at, Symbol::Builtin(builtin));
             return self.call_builtin(builtin, at, arguments, span);
         }
-        let common = &self.files[super::prelude::FILE as usize].scope;
-        if let Some(declared) = common.get(&name).copied() {
-            self.resolve_entity(at, declared.entity);
-            return self.call_entity(declared.entity, &name, arguments, span);
+        if let Some(entity) = self.declared(super::prelude::FILE, &name) {
+            self.resolve_entity(at, entity);
+            return self.call_entity(entity, &name, arguments, span);
         }
         if local || declared.is_some() {
             let value = self.name(&name, at, None);

@@ -66,10 +66,7 @@ impl Checker {
             let Item::Role(role) = item else { continue };
             let Some(name) = name_of(&role) else { continue };
             if let Some((_, first)) = roles.iter().find(|(_, other)| other.text == name.text) {
-                let message = format!("there are two roles `{}`", name.text);
-                let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
-                let problem = problem.label(first.span, "the first one");
-                self.report(problem);
+                self.duplicate("roles", &name.text, name.span, first.span);
                 continue;
             }
             roles.push((role, name));
@@ -231,10 +228,7 @@ impl Checker {
         for name in names {
             let (text, span) = (name.text(), name.span());
             if let Some((_, first)) = variants.iter().find(|(other, _)| *other == text) {
-                let message = format!("there are two variants `{text}`");
-                let problem = Diagnostic::new(Code::DuplicateName, span, message);
-                let problem = problem.label(*first, "the first one");
-                self.report(problem);
+                self.duplicate("variants", &text, span, *first);
             } else {
                 variants.push((text, span));
             }

@@ -68,7 +68,7 @@ impl Checker {
                 }
                 _ => return None,
             };
-            match self.files[file as usize].scope.get(word.text())?.entity {
+            match self.declared(file, word.text())? {
                 Entity::Constant(id) => Some(id),
                 _ => None,
             }

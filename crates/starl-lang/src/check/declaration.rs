@@ -1,13 +1,12 @@
 //! Declarations: their values, bodies and effects.
 
-use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::arguments::Parameters;
 use super::body::{Body, Where};
-use super::report::did_you_mean;
+use super::report::{article, did_you_mean, joined, listed, made};
 use super::resolution::Symbol;
 use super::returns::always_returns;
 use super::scope::Entity;
@@ -149,11 +148,7 @@ impl Checker {
         let problem = Diagnostic::new(Code::MissingReturn, function.site.span, message);
         let expected = self.name_of(&function.result);
         let note = "every path through a function must end with `return`";
-        self.report(
-            problem
-                .expected(super::report::article(&expected))
-                .note(note),
-        );
+        self.report(problem.expected(article(&expected)).note(note));
     }
 
     fn check_parameters(&mut self) {
@@ -243,28 +238,15 @@ impl Checker {
         let (range, locals) = self.in_body(Where::Guard, |checker| checker.check_range(node, ty));
         let Some([from, before]) = range else { return };
         let span = node.span();
-        let compared = |operator, with: Expression| Expression {
-            kind: ExpressionKind::Binary {
-                operator,
-                left: Box::new(Expression {
-                    kind: ExpressionKind::Variable(id),
-                    ty: ty.clone(),
-                    span,
-                }),
-                right: Box::new(with),
-            },
-            ty: Type::Bool,
-            span,
+        let compared = |operator, with| {
+            let variable = made(ExpressionKind::Variable(id), ty.clone(), span);
+            joined(operator, variable, with, Type::Bool, span)
         };
-        let condition = Expression {
-            kind: ExpressionKind::Binary {
-                operator: Operator::And,
-                left: Box::new(compared(Operator::GreaterEqual, from)),
-                right: Box::new(compared(Operator::Less, before)),
-            },
-            ty: Type::Bool,
-            span,
-        };
+        let (least, most) = (
+            compared(Operator::GreaterEqual, from),
+            compared(Operator::Less, before),
+        );
+        let condition = joined(Operator::And, least, most, Type::Bool, span);
         let site = self.site(span);
         self.program.checks.push(Check {
             locals,
@@ -333,7 +315,7 @@ impl Checker {
                 let message = "this is not a primitive";
                 let problem = Diagnostic::new(Code::UnknownPrimitive, callee.span(), message);
                 let names = PRIMITIVES.iter().map(Primitive::name);
-                self.report(problem.note(format!("there are {}", super::report::listed(names))));
+                self.report(problem.note(format!("there are {}", listed(names))));
             }
             return;
         };
@@ -343,8 +325,7 @@ impl Checker {
         let message = format!("there is no primitive `{word}`");
         let problem = Diagnostic::new(Code::UnknownPrimitive, span, message);
         let names = || PRIMITIVES.iter().map(Primitive::name);
-        let scope = &self.files[0].scope;
-        let ty = match scope.get(&word).map(|declared| declared.entity) {
+        let ty = match self.declared(0, &word) {
             Some(Entity::Function(id)) => Some(self.program[id].result.clone()),
             Some(Entity::Record(id)) => Some(Type::Record(id)),
             _ => Builtin::named(&word).map(|builtin| {

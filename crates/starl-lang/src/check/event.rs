@@ -13,7 +13,7 @@ use super::state::Checker;
 use super::surroundings::Surroundings;
 use super::tables::Event as EventSignature;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Event, Handler, Local, LocalId, RecordId, Statement, StatementKind, Type};
+use crate::ir::{Event, Handler, RecordId, Statement, StatementKind, Type};
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast;
 
@@ -47,33 +47,31 @@ impl Checker {
         // With a part too few or too many the meaning of the names is unknown.
         let parts =
             parts.filter(|parts| self.check_parts(&event, parts, names.len(), span, first.text()));
-        let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
-            let mut parameters = Vec::new();
-            for (number, name) in names.iter().enumerate() {
-                let part = parts.as_ref().and_then(|parts| parts.get(number));
-                let ty = part.map_or(Type::Error, |(_, ty)| ty.clone());
-                let local = checker.declare_local(name, ty, None);
-                if let Some(local) = local {
-                    checker.body.fixed[local.index()] = Some("a parameter of the handler");
-                }
-                parameters.push(local);
-            }
-            let body = checker.block(node.body());
-            checker.check_touched();
-            (parameters, body)
-        });
-        self.add_handler(event, role, parameters, (body, locals), span);
+        let types = parts.into_iter().flatten().map(|(_, ty)| ty);
+        let types = types.chain(core::iter::repeat(Type::Error));
+        let parameters = names.into_iter().map(Some).zip(types).collect();
+        self.add_handler((event, span), role, node, parameters, None);
     }
 
-    /// Adds a handler to the program. In a role its body begins with the question whether the robot has it.
+    /// Checks the statements of a handler, and adds it to the program. In a role they begin with the question whether the
+    /// robot has it. `unread` is the warning if nothing reads a parameter.
     pub(super) fn add_handler(
         &mut self,
-        event: Event,
+        (event, span): (Event, Span),
         role: Option<u16>,
-        parameters: Vec<Option<LocalId>>,
-        (body, locals): (Vec<Statement>, Vec<Local>),
-        span: Span,
+        node: &ast::HandlerDeclaration,
+        parameters: Vec<(Option<ast::Name>, Type)>,
+        unread: Option<Code>,
     ) {
+        let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
+            let declare = |(name, ty): (Option<ast::Name>, Type)| {
+                let local = checker.declare_local(&name?, ty, unread)?;
+                checker.body.fixed[local.index()] = Some("a parameter of the handler");
+                Some(local)
+            };
+            let parameters = parameters.into_iter().map(declare).collect();
+            (parameters, checker.effect(node.body()))
+        });
         let body = match self.in_role(role, span) {
             Some(condition) => {
                 let kind = StatementKind::If {
@@ -98,8 +96,7 @@ impl Checker {
 
     fn message_event(&mut self, word: &SyntaxToken) -> (Event, Option<Parts>) {
         let (name, span) = (word.text(), Span::from(word.text_range()));
-        let scope = &self.files[0].scope;
-        let entity = scope.get(name).map(|declared| declared.entity);
+        let entity = self.declared(0, name);
         if let Some(Entity::Record(id)) = entity
             && self.program[id].is_message
         {
@@ -145,8 +142,7 @@ impl Checker {
 
     /// The library that a word stands for.
     fn imported(&mut self, word: &SyntaxToken) -> Option<u32> {
-        let declared = self.files[0].scope.get(word.text())?;
-        let Entity::Library(library) = declared.entity else {
+        let Entity::Library(library) = self.declared(0, word.text())? else {
             return None;
         };
         self.usage.imports.insert((0, library));
@@ -185,8 +181,7 @@ impl Checker {
         name: &SyntaxToken,
     ) -> (Event, Option<Parts>) {
         let span = Span::from(primitive.text_range());
-        let scope = &self.files[0].scope;
-        let entity = scope.get(primitive.text()).map(|declared| declared.entity);
+        let entity = self.declared(0, primitive.text());
         if self.is_probe(span) {
             self.note_probe(Surroundings::Event);
         }

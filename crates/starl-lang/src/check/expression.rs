@@ -89,6 +89,13 @@ impl Checker {
         }
     }
 
+    /// Checks an expression whose surroundings are broken, unless its type is that of its surroundings.
+    pub fn infer_alone(&mut self, expression: Option<ast::Expression>) -> Expression {
+        let can_be_checked =
+            |value: &ast::Expression| !self.needs_hint(value) || self.holds_probe(value);
+        self.infer(expression.filter(can_be_checked), None)
+    }
+
     /// Whether the expression's type is that of its surroundings.
     pub fn needs_hint(&self, expression: &ast::Expression) -> bool {
         match expression {

@@ -123,11 +123,10 @@ impl Checker {
                 .expected(self.name_of(expected))
                 .found(self.name_of(found))
         };
+        let wrong = |what: &str| problem(Code::WrongType, format!("{role} {what}"));
+        let wrong_type = || wrong("has the wrong type");
         match (found, expected) {
-            (Type::Nothing, _) => problem(
-                Code::WrongType,
-                format!("{role} is a call that gives nothing"),
-            ),
+            (Type::Nothing, _) => wrong("is a call that gives nothing"),
             (Type::Optional(inner), _) if same(inner, expected) => {
                 let problem = problem(Code::MayBeNone, format!("{role} may be none"));
                 if *expected == Type::Bool {
@@ -145,13 +144,9 @@ impl Checker {
                     "`Int(...)` drops the fraction; `round`, `floor` and `ceil` give an Int too";
                 problem.note(note)
             }
-            (Type::Robot, Type::Int) => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
-                problem.fix(number_of(span))
-            }
+            (Type::Robot, Type::Int) => wrong_type().fix(number_of(span)),
             (Type::Record(_), Type::Point) if self.text(span).starts_with('(') => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
-                problem.fix(around("write `Point(x, y)`", span, "Point", ""))
+                wrong_type().fix(around("write `Point(x, y)`", span, "Point", ""))
             }
             (Type::Int | Type::Float, Type::Duration)
                 if matches!(
@@ -166,80 +161,54 @@ impl Checker {
                     "m" => ("a length, not a time", "min"),
                     _ => ("a length, not a time", ""),
                 };
-                let problem = problem(Code::WrongType, format!("{role} is {what}"));
+                let problem = wrong(&format!("is {what}"));
                 let meant = format!("{digits}{unit}");
-                match unit {
-                    "s" => problem.replace(
-                        format!("write `{meant}` if these are seconds"),
-                        span,
-                        meant,
-                    ),
-                    "min" => problem.replace(
-                        format!("write `{meant}` if these are minutes"),
-                        span,
-                        meant,
-                    ),
-                    _ => problem,
-                }
+                let form = match unit {
+                    "s" => format!("write `{meant}` if these are seconds"),
+                    "min" => format!("write `{meant}` if these are minutes"),
+                    _ => return problem,
+                };
+                problem.replace(form, span, meant)
             }
             (Type::Duration, Type::Float) => {
-                let problem = problem(Code::WrongType, format!("{role} is a time, not a number"));
                 let (before, after) = operand(value, " / 1s");
                 let fix = "divide it by a unit: `... / 1s` is its number of seconds";
-                problem.fix(around(fix, span, before, &after))
+                wrong("is a time, not a number").fix(around(fix, span, before, &after))
             }
             (Type::Int | Type::Float, Type::Duration) => {
-                let problem = problem(Code::WrongType, format!("{role} is a number, not a time"));
                 let (before, after) = operand(value, " * 1s");
                 let fix = "multiply it by a unit: `... * 1s` if these are seconds";
-                problem.fix(around(fix, span, before, &after))
+                wrong("is a number, not a time").fix(around(fix, span, before, &after))
             }
             (Type::Int | Type::Optional(_), Type::Bool) => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
                 let (text, form) = match found {
                     Type::Int => (" != 0", "compare it: `... != 0`"),
                     _ => (" != none", "test it: `... != none`"),
                 };
                 let (before, after) = operand(value, text);
-                problem.fix(around(form, span, before, &after))
+                wrong_type().fix(around(form, span, before, &after))
             }
             (Type::List(_) | Type::Set(_) | Type::Map(..) | Type::String, Type::Bool) => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
                 let (before, after) = operand(value, ".size() > 0");
-                problem.fix(around(
-                    "test its size: `x.size() > 0`",
-                    span,
-                    before,
-                    &after,
-                ))
+                let fix = "test its size: `x.size() > 0`";
+                wrong_type().fix(around(fix, span, before, &after))
             }
             (Type::Bool | Type::Int | Type::Float | Type::Duration | Type::Robot, Type::String) => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
-                problem.fix(around(
-                    "convert it with `String(...)`",
-                    span,
-                    "String(",
-                    ")",
-                ))
+                let fix = "convert it with `String(...)`";
+                wrong_type().fix(around(fix, span, "String(", ")"))
             }
             (Type::String, Type::Int | Type::Float) => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
-                problem.note("`text.to_int()` and `text.to_float()` are optional numbers")
+                wrong_type().note("`text.to_int()` and `text.to_float()` are optional numbers")
             }
             (_, Type::Set(inner)) if same(found, inner) => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
-                problem.fix(around("put it in braces: a set of one", span, "{", "}"))
+                wrong_type().fix(around("put it in braces: a set of one", span, "{", "}"))
             }
             (_, Type::List(inner)) if same(found, inner) => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
-                problem.fix(around("put it in brackets: a list of one", span, "[", "]"))
+                wrong_type().fix(around("put it in brackets: a list of one", span, "[", "]"))
             }
             _ => {
-                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
-                if self.name_of(found) == self.name_of(expected) {
-                    return problem.note(SAME_NAME);
-                }
-                problem
+                let is_same_name = self.name_of(found) == self.name_of(expected);
+                wrong_type().note_if(is_same_name.then_some(SAME_NAME))
             }
         }
     }

@@ -6,7 +6,6 @@ use alloc::vec::Vec;
 
 use starl_core::Order;
 
-use super::body::Where;
 use super::collect::name_of;
 use super::report::counted;
 use super::resolution::Symbol;
@@ -48,27 +47,21 @@ impl Checker {
             );
         }
         self.compare_with_others(role, &text, &fields, span);
-        let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
-            let mut parameters = Vec::new();
-            for (parameter, (_, ty, _)) in node.fields().zip(&fields) {
-                let name = ast::Named::name(&parameter);
-                let unread = Some(Code::UnusedLocal);
-                let local = name.and_then(|name| checker.declare_local(&name, ty.clone(), unread));
-                if let Some(local) = local {
-                    checker.body.fixed[local.index()] = Some("a parameter of the handler");
-                }
-                parameters.push(local);
-            }
-            let body = checker.block(node.body());
-            checker.check_touched();
-            (parameters, body)
-        });
+        let parameters = (node.fields().zip(&fields))
+            .map(|(parameter, (_, ty, _))| (ast::Named::name(&parameter), ty.clone()))
+            .collect();
         let fields = fields.into_iter().map(|(name, ty, _)| (name, ty));
         let event = Event::Input {
             name: text,
             fields: fields.collect(),
         };
-        self.add_handler(event, role, parameters, (body, locals), span);
+        self.add_handler(
+            (event, span),
+            role,
+            node,
+            parameters,
+            Some(Code::UnusedLocal),
+        );
     }
 
     /// The fields that are named, with their types; reports types that no order carries.

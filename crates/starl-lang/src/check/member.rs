@@ -17,8 +17,16 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
 use crate::syntax::ast::{self, AstNode};
 
+/// A part of a value that has a name.
+pub(super) enum Part {
+    /// A field of a record, by its number.
+    Field(u32),
+    /// A coordinate of a point, by its axis.
+    Coordinate(u8),
+}
+
 /// The coordinates of a point.
-pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Checker {
     /// The library, primitive or enum that the expression names; `None` for a value.
@@ -29,9 +37,8 @@ impl Checker {
                 if self.body.find(&name).is_some() {
                     return None;
                 }
-                let own = self.files[self.file as usize].scope.get(&name);
-                let common = &self.files[super::prelude::FILE as usize].scope;
-                let entity = own.or_else(|| common.get(&name))?.entity;
+                let entity = (self.declared(self.file, &name))
+                    .or_else(|| self.declared(super::prelude::FILE, &name))?;
                 if let Entity::Library(file) = entity {
                     self.usage.imports.insert((self.file, file));
                 }
@@ -50,7 +57,7 @@ impl Checker {
                     return None;
                 };
                 let name = node.field()?;
-                let entity = self.files[file as usize].scope.get(name.text())?.entity;
+                let entity = self.declared(file, name.text())?;
                 let is_enum = matches!(entity, Entity::Enum(_));
                 if is_enum {
                     self.resolve_entity(name.text_range().into(), entity);
@@ -214,31 +221,16 @@ impl Checker {
         self.note_probed_member(at, &base.ty);
         match &base.ty {
             Type::Error => return broken(span),
-            Type::Record(id) => {
-                let id = *id;
-                let fields = &self.program[id].fields;
-                if let Some(number) = fields.iter().position(|field| field.name == name) {
-                    let ty = fields[number].ty.clone();
-                    self.resolve(at, Symbol::Field(id, number as u32));
-                    let kind = ExpressionKind::Field {
-                        base: Box::new(base),
-                        field: number as u32,
-                    };
-                    return made(kind, ty, span);
-                }
-            }
-            Type::Point => {
-                if let Some(axis) = AXES.iter().position(|axis| *axis == name) {
-                    self.resolve(at, Symbol::Coordinate(AXES[axis]));
-                    let kind = ExpressionKind::Coordinate {
-                        base: Box::new(base),
-                        axis: axis as u8,
-                    };
-                    return made(kind, Type::Float, span);
-                }
-            }
             Type::Robot => return self.robot_field(base, name, at, span),
             _ => {}
+        }
+        if let Some((part, ty)) = self.part_named(&base.ty, name, at) {
+            let base = Box::new(base);
+            let kind = match part {
+                Part::Field(field) => ExpressionKind::Field { base, field },
+                Part::Coordinate(axis) => ExpressionKind::Coordinate { base, axis },
+            };
+            return made(kind, ty, span);
         }
         if let Some(method) = Method::of(self.receiver_name(&base.ty)).find(|m| m.name() == name) {
             self.resolve(at, Symbol::Method(method));
@@ -256,10 +248,29 @@ impl Checker {
         broken(span)
     }
 
+    /// The field of a record or the coordinate of a point with this name, at the place `at`, and its type.
+    pub fn part_named(&mut self, of: &Type, name: &str, at: Span) -> Option<(Part, Type)> {
+        let (part, ty, symbol) = match of {
+            Type::Record(id) => {
+                let fields = &self.program[*id].fields;
+                let number = fields.iter().position(|field| field.name == name)?;
+                let (ty, number) = (fields[number].ty.clone(), number as u32);
+                (Part::Field(number), ty, Symbol::Field(*id, number))
+            }
+            Type::Point => {
+                let axis = AXES.iter().position(|axis| *axis == name)?;
+                let symbol = Symbol::Coordinate(AXES[axis]);
+                (Part::Coordinate(axis as u8), Type::Float, symbol)
+            }
+            _ => return None,
+        };
+        self.resolve(at, symbol);
+        Some((part, ty))
+    }
+
     /// `r.variable` in a property.
     fn robot_field(&mut self, robot: Expression, name: &str, at: Span, span: Span) -> Expression {
-        let scope = &self.files[self.file as usize].scope;
-        let entity = scope.get(name).map(|declared| declared.entity);
+        let entity = self.declared(self.file, name);
         let role = (self.program.roles.as_ref()).filter(|_| name == "role");
         let member = match (entity, role) {
             (_, Some(roles)) => Some(RobotMember::Variable(roles.variable)),

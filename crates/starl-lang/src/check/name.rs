@@ -45,9 +45,8 @@ impl Checker {
         if name == "role" && self.program.roles.is_some() && self.file == 0 {
             return Meaning::Role;
         }
-        let scope = &self.files[self.file as usize].scope;
-        if let Some(declared) = scope.get(name) {
-            return Meaning::Entity(declared.entity);
+        if let Some(entity) = self.declared(self.file, name) {
+            return Meaning::Entity(entity);
         }
         let mut visible: Vec<(EnumId, u16)> = self.visible_variants(name).collect();
         // Those of the file itself hide those that every program has.
@@ -63,9 +62,8 @@ impl Checker {
         if let Some(builtin) = Builtin::named(name) {
             return Meaning::Builtin(builtin);
         }
-        let common = &self.files[prelude::FILE as usize].scope;
-        if let Some(declared) = common.get(name) {
-            return Meaning::Entity(declared.entity);
+        if let Some(entity) = self.declared(prelude::FILE, name) {
+            return Meaning::Entity(entity);
         }
         Primitive::named(name).map_or(Meaning::Unknown, Meaning::Primitive)
     }
@@ -227,17 +225,7 @@ impl Checker {
             let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
             self.report(problem.note("no robot knows it"));
         } else if purity == Purity::Query {
-            let message = format!("{what} cannot use `{name}`");
-            let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
-            self.report(match place {
-                Where::Function => problem.note(
-                    "a function depends on its arguments and on constants; pass the value to it",
-                ),
-                Where::Binding => {
-                    problem.note("it is made of constants, parameters, `me` and `peers`")
-                }
-                _ => problem.note("a constant is the same for all robots and all runs"),
-            });
+            self.state_out_of_reach("use", name, span);
         } else {
             let message = format!("{what} cannot call `{name}`, which does something");
             let problem = Diagnostic::new(Code::Impure, span, message);

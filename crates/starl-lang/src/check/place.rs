@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Where;
-use super::member::AXES;
+use super::member::Part;
 use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
@@ -68,8 +68,7 @@ impl Checker {
             self.error(Code::NotWritable, span, message);
             return no_place(span);
         }
-        let scope = &self.files[self.file as usize].scope;
-        let entity = scope.get(name).map(|declared| declared.entity);
+        let entity = self.declared(self.file, name);
         if let Some(entity) = entity {
             self.resolve_entity(span, entity);
         }
@@ -181,7 +180,7 @@ impl Checker {
         if self.body.find(&name).is_some() {
             return None;
         }
-        match self.files[self.file as usize].scope.get(&name)?.entity {
+        match self.declared(self.file, &name)? {
             Entity::Shared(id) if self.program[id].is_single_writer => Some((id, name)),
             _ => None,
         }
@@ -262,25 +261,16 @@ impl Checker {
             return no_place(span);
         }
         let whole = self.place(&base);
-        let name = word.text();
-        match whole.ty.clone() {
-            Type::Error => return no_place(span),
-            Type::Record(id) => {
-                let fields = &self.program[id].fields;
-                if let Some(number) = fields.iter().position(|field| field.name == name) {
-                    let ty = fields[number].ty.clone();
-                    let part = Symbol::Field(id, number as u32);
-                    self.resolve(word.text_range().into(), part);
-                    return self.part(whole, Step::Field(number as u32), ty, span);
-                }
-            }
-            Type::Point => {
-                if let Some(axis) = AXES.iter().position(|axis| *axis == name) {
-                    self.resolve(word.text_range().into(), Symbol::Coordinate(AXES[axis]));
-                    return self.part(whole, Step::Coordinate(axis as u8), Type::Float, span);
-                }
-            }
-            _ => {}
+        if whole.ty == Type::Error {
+            return no_place(span);
+        }
+        let part = self.part_named(&whole.ty, word.text(), word.text_range().into());
+        if let Some((part, ty)) = part {
+            let step = match part {
+                Part::Field(field) => Step::Field(field),
+                Part::Coordinate(axis) => Step::Coordinate(axis),
+            };
+            return self.part(whole, step, ty, span);
         }
         // It cannot be read either, and that is what there is to say.
         self.infer(Some(ast::Expression::Field(node.clone())), None);
@@ -295,10 +285,7 @@ impl Checker {
                 if let Some(local) = self.body.find(&name) {
                     return Some(Variable::Local(local));
                 }
-                let scope = &self.files[self.file as usize].scope;
-                scope
-                    .get(&name)
-                    .map(|declared| Variable::Entity(declared.entity))
+                self.declared(self.file, &name).map(Variable::Entity)
             }
             ast::Expression::Field(node) => self.root(&node.base()?),
             ast::Expression::Index(node) => self.root(&node.base()?),

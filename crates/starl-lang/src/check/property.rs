@@ -23,9 +23,7 @@ impl Checker {
                 .map(|other| other.site.span)
                 .next();
             if let Some(first) = same {
-                let message = format!("there are two properties `{}`", name.text);
-                let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
-                self.report(problem.label(first, "the first one"));
+                self.duplicate("properties", &name.text, name.span, first);
             }
         }
         let about_robot = self.value.is_some()

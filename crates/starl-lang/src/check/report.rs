@@ -6,6 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::asked;
+use super::scope::Entity;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix, Span, closest};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
@@ -36,9 +37,22 @@ impl Checker {
         self.report(Diagnostic::new(code, span, message));
     }
 
+    /// Reports a second declaration of a name, such as the second of `actions`.
+    pub fn duplicate(&mut self, what: &str, name: &str, span: Span, first: Span) {
+        let message = format!("there are two {what} `{name}`");
+        let problem = Diagnostic::new(Code::DuplicateName, span, message);
+        self.report(problem.label(first, "the first one"));
+    }
+
     /// A type as a person writes it.
     pub fn name_of(&self, of: &Type) -> String {
         self.program.type_name(of)
+    }
+
+    /// The meaning that a file gives to a name.
+    pub fn declared(&self, file: u32, name: &str) -> Option<Entity> {
+        let declared = self.files[file as usize].scope.get(name)?;
+        Some(declared.entity)
     }
 
     /// The text of the present file at a place.

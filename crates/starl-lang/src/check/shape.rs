@@ -54,7 +54,7 @@ impl Checker {
     }
 
     fn prelude_type(&self, name: &str) -> Option<Type> {
-        match self.files[prelude::FILE as usize].scope.get(name)?.entity {
+        match self.declared(prelude::FILE, name)? {
             Entity::Enum(id) => Some(Type::Enum(id)),
             Entity::Record(id) => Some(Type::Record(id)),
             _ => None,

@@ -93,6 +93,7 @@ pub(super) struct Evaluation {
 }
 
 /// The checker.
+#[derive(Default)]
 pub(super) struct Checker {
     pub program: Program,
     pub files: Vec<File>,
@@ -144,26 +145,7 @@ impl Checker {
         Self {
             program,
             files,
-            nodes: Nodes::default(),
-            file: 0,
-            body: Body::default(),
-            usage: Usage::default(),
-            constants: Vec::new(),
-            needs: BTreeSet::new(),
-            user: None,
-            keys: Vec::new(),
-            dimensions: BTreeMap::new(),
-            variants: BTreeMap::new(),
-            tuples: BTreeMap::new(),
-            sizes: BTreeMap::new(),
-            evaluations: Vec::new(),
-            actions: BTreeSet::new(),
-            unused_locals: Vec::new(),
-            resolutions: Resolutions::default(),
-            probe: None,
-            surroundings: None,
-            probed_parameters: Vec::new(),
-            value: None,
+            ..Self::default()
         }
     }
 

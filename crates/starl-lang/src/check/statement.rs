@@ -153,11 +153,7 @@ impl Checker {
         };
         let ty = place.ty.clone();
         let value = match ty {
-            Type::Error => {
-                let can_be_checked =
-                    |value: &ast::Expression| !self.needs_hint(value) || self.holds_probe(value);
-                self.infer(value.filter(can_be_checked), None)
-            }
+            Type::Error => self.infer_alone(value),
             _ => self.expect(value, &ty, &role),
         };
         self.check_assigned_dimension(&place, &value);

@@ -90,10 +90,7 @@ impl Checker {
                 continue;
             };
             if let Some(first) = parameters.iter().find(|other| other.name == name.text) {
-                let message = format!("there are two parameters `{}`", name.text);
-                let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
-                let problem = problem.label(first.span, "the first one");
-                self.report(problem);
+                self.duplicate("parameters", &name.text, name.span, first.span);
             }
             parameters.push(Local {
                 name: name.text,
@@ -234,8 +231,7 @@ impl Checker {
             return ty;
         }
         for file in [self.file, super::prelude::FILE] {
-            let declared = self.files[file as usize].scope.get(name).copied();
-            match declared.map(|declared| declared.entity) {
+            match self.declared(file, name) {
                 Some(Entity::Enum(id)) => {
                     self.usage.used.insert(Entity::Enum(id));
                     self.resolve(span, Symbol::Enum(id));
@@ -303,8 +299,7 @@ impl Checker {
         if self.is_probe(span) {
             self.note_probe(Surroundings::Part(Symbol::File(file)));
         }
-        let entity = self.files[file as usize].scope.get(name.text());
-        let entity = entity.map(|declared| declared.entity);
+        let entity = self.declared(file, name.text());
         if let Some(entity) = entity {
             self.resolve_entity(span, entity);
         }
@@ -326,8 +321,7 @@ impl Checker {
 
     /// The file of a library that is named; none, which is reported, if it is not imported.
     fn library_named(&mut self, word: &SyntaxToken) -> Option<u32> {
-        let scope = &self.files[self.file as usize].scope;
-        match scope.get(word.text()).map(|declared| declared.entity) {
+        match self.declared(self.file, word.text()) {
             Some(Entity::Library(file)) => {
                 self.usage.imports.insert((self.file, file));
                 self.resolve(word.text_range().into(), Symbol::File(file));

@@ -51,7 +51,7 @@ impl Checker {
     ) -> Expression {
         match self.body.place {
             Where::Constant | Where::Function => {
-                self.state_out_of_reach(name, span);
+                self.state_out_of_reach("read", name, span);
                 broken(span)
             }
             Where::Property => {
@@ -104,7 +104,7 @@ impl Checker {
             }
             Where::Property => return self.property_variable(id, name, span),
             Where::Constant | Where::Function | Where::Binding => {
-                self.state_out_of_reach(name, span);
+                self.state_out_of_reach("read", name, span);
                 return broken(span);
             }
         };
@@ -154,10 +154,10 @@ impl Checker {
         made(ExpressionKind::OfRobot { robot, member }, ty, span)
     }
 
-    /// Reports state where it cannot be seen.
-    pub fn state_out_of_reach(&mut self, name: &str, span: Span) {
+    /// Reports state where it cannot be seen; `verb` is what was tried: to `read` it, or to `use` it.
+    pub fn state_out_of_reach(&mut self, verb: &str, name: &str, span: Span) {
         let what = self.body.place.what();
-        let message = format!("{what} cannot read `{name}`");
+        let message = format!("{what} cannot {verb} `{name}`");
         let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
         let note = match self.body.place {
             Where::Function => {
@@ -182,7 +182,7 @@ impl Checker {
                 };
             }
             _ => {
-                self.state_out_of_reach(name, span);
+                self.state_out_of_reach("read", name, span);
                 return broken(span);
             }
         }
