@@ -58,7 +58,6 @@ pub use interpreter::{Limits, Machine};
 pub use program::Program;
 pub use text::{AssemblyError, assemble, disassemble};
 pub use types::{Layout, ObjectType, Order, Parts, Type, is_tuple};
-pub use value::list::{Block, List};
-pub use value::object::{Body, Map, Object};
+pub use value::object::{Block, Body, List, Map, Object};
 pub use value::state::State;
 pub use value::tree::Value;

@@ -5,8 +5,7 @@ use crate::machine::interpreter::view::{View, object_at, shift};
 use crate::machine::operand::{
     Block, In, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, PairOut, Type,
 };
-use crate::machine::value::list::{self, List};
-use crate::machine::value::object::Object;
+use crate::machine::value::object::{self, List, Object};
 
 /// The cost of sorting: every element moves once for each level of a merge.
 pub(in crate::machine) fn sorting(list: &List) -> u64 {
@@ -29,7 +28,7 @@ impl View<'_> {
     /// Writes a block to registers.
     pub fn set_block(
         &mut self,
-        value: list::Block<'_>,
+        value: object::Block<'_>,
         (scalars, objects): (usize, usize),
     ) -> Result<u64, Fault> {
         let place = self
@@ -181,7 +180,7 @@ impl View<'_> {
         let object = self.read(list)?;
         let block = self.block(scalars, objects, layout)?;
         let types = &self.program.parts;
-        let is_it = |element: list::Block<'_>| element.compare(block, layout, types).is_eq();
+        let is_it = |element: object::Block<'_>| element.compare(block, layout, types).is_eq();
         let found = object.list().and_then(|list| list.iter().position(is_it));
         let cost = shift(object.bytes());
         self.registers[usize::from(to.0)] = u64::from(found.is_some());
@@ -315,7 +314,7 @@ impl View<'_> {
 pub(in crate::machine) fn insert(
     list: &mut List,
     at: usize,
-    block: list::Block<'_>,
+    block: object::Block<'_>,
 ) -> Result<u64, Fault> {
     let held = block.objects.iter().map(Object::bytes).sum::<usize>();
     let cost = shift(list.bytes_from(at) + held);

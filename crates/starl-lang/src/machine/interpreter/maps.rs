@@ -6,8 +6,7 @@ use crate::machine::interpreter::view::{View, object_at, shift};
 use crate::machine::interpreter::workspace::{Registers, WINDOW};
 use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, Type};
 use crate::machine::types::Parts;
-use crate::machine::value::list;
-use crate::machine::value::object::{Map, Object};
+use crate::machine::value::object::{self, Map, Object};
 
 /// Where a value stands in registers: its first scalar and its first object.
 type Place = (Block, ObjectBlock);
@@ -54,16 +53,20 @@ pub fn put_scalars(
 
 /// The key, if an index may have it.
 #[inline(always)]
-fn hashed<'a>((place, text): Key<'a>, parts: &Parts, r: &'a Registers) -> Option<list::Block<'a>> {
+fn hashed<'a>(
+    (place, text): Key<'a>,
+    parts: &Parts,
+    r: &'a Registers,
+) -> Option<object::Block<'a>> {
     if !parts.has_hashed_keys {
         return None;
     }
     Some(match parts.element.objects.len() {
-        0 => list::Block {
+        0 => object::Block {
             scalars: r.get(place..=place)?,
             objects: &[],
         },
-        _ => list::Block {
+        _ => object::Block {
             scalars: &[],
             objects: core::slice::from_ref(text?),
         },

@@ -5,7 +5,7 @@ use crate::machine::interpreter::lists::{insert, sorting};
 use crate::machine::interpreter::view::{View, shift};
 use crate::machine::operand::{Block, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, Type};
 use crate::machine::types::{Layout, Parts};
-use crate::machine::value::list::List;
+use crate::machine::value::object::List;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 

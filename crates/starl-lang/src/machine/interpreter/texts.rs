@@ -7,8 +7,7 @@ use crate::machine::operand::{
     TextChange, TextEnd,
 };
 use crate::machine::types::Type;
-use crate::machine::value::list::List;
-use crate::machine::value::object::Object;
+use crate::machine::value::object::{List, Object};
 use crate::machine::value::tree::Value;
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -13,8 +13,7 @@ use crate::machine::operand::{
 };
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, Parts};
-use crate::machine::value::list::Block;
-use crate::machine::value::object::Object;
+use crate::machine::value::object::{Block, Object};
 
 /// The memory that an activation may use.
 #[derive(Clone, Copy, Debug)]

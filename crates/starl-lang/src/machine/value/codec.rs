@@ -9,8 +9,7 @@
 
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, ObjectType, Parts, Type};
-use crate::machine::value::list::{Block, List};
-use crate::machine::value::object::{Body, Map, Object};
+use crate::machine::value::object::{Block, Body, List, Map, Object};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use starl_core::{Area, Payload, message};

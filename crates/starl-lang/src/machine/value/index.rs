@@ -6,7 +6,7 @@
 //! Programming", volume 3, section 6.4). Keys that hash to one place are searched by bisection after [`LONGEST`] of them,
 //! so that no keys make it slower than that.
 
-use crate::machine::value::list::{Block, List};
+use crate::machine::value::list::{Block, Item, List};
 use alloc::boxed::Box;
 use alloc::vec;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -69,7 +69,7 @@ impl Found {
 impl Index {
     /// Where a key is. `keys` are the keys of the map.
     #[inline(always)]
-    pub fn find(&self, keys: &List, key: Block<'_>) -> Found {
+    pub fn find<T: Item>(&self, keys: &List<T>, key: Block<'_, T>) -> Found {
         let last = self.last.load(Ordering::Relaxed) as usize;
         if keys.is_surely_at(last, key) {
             return Found::At(last);
@@ -86,7 +86,7 @@ impl Index {
     }
 
     #[inline(never)]
-    fn look_up(&self, keys: &List, key: Block<'_>) -> Found {
+    fn look_up<T: Item>(&self, keys: &List<T>, key: Block<'_, T>) -> Found {
         let Some(table) = self.table.get() else {
             self.ask(keys);
             return Found::Unknown;
@@ -106,7 +106,7 @@ impl Index {
         }
     }
 
-    fn ask(&self, keys: &List) {
+    fn ask<T: Item>(&self, keys: &List<T>) {
         // Counts that are lost where two threads ask at once do not matter.
         let asked = self.asked.load(Ordering::Relaxed).saturating_add(1);
         self.asked.store(asked, Ordering::Relaxed);
@@ -130,7 +130,7 @@ impl core::fmt::Debug for Index {
 }
 
 impl Table {
-    fn of(keys: &List) -> Table {
+    fn of<T: Item>(keys: &List<T>) -> Table {
         let length = (2 * keys.len()).next_power_of_two();
         let mut table = Table {
             places: vec![Place::default(); length].into(),
@@ -158,7 +158,7 @@ impl Table {
     }
 
     #[inline]
-    fn find(&self, keys: &List, key: Block<'_>) -> Found {
+    fn find<T: Item>(&self, keys: &List<T>, key: Block<'_, T>) -> Found {
         let hash = hash(key);
         for place in self.places_of(hash) {
             let Place { number, tag: other } = self.places[place];
@@ -182,7 +182,7 @@ fn tag(hash: u64) -> u32 {
 const FACTOR: u64 = 0x9E37_79B9_7F4A_7C15;
 
 #[inline]
-fn hash(key: Block<'_>) -> u64 {
+fn hash<T: Item>(key: Block<'_, T>) -> u64 {
     let mut hash = 0u64;
     for &word in key.scalars {
         hash = mixed(hash, word);
@@ -209,8 +209,7 @@ fn mixed(hash: u64, word: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use crate::machine::types::{ObjectType, Parts, Type};
-    use crate::machine::value::list::Block;
-    use crate::machine::value::object::{Map, Object};
+    use crate::machine::value::object::{Block, Map, Object};
     use alloc::collections::BTreeMap;
     use alloc::format;
     use starl_core::Random;

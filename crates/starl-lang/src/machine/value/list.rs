@@ -2,37 +2,66 @@
 //!
 //! Invariant: `scalars` holds `length * width` words and `objects` `length * object_width` objects;
 //! `held` is the sum of the sizes of `objects`.
+//!
+//! Objects hold lists, so a list knows of its objects only that they are [`Item`]s.
 
 use crate::machine::types::{Layout, Order, Parts, bits};
-use crate::machine::value::object::{Object, WORD};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::ops::Range;
 use serde::{Deserialize, Serialize};
 
+/// Bytes of a scalar, or of a reference to an object.
+pub const WORD: usize = 8;
+
+/// An object that elements hold beside their scalars.
+pub trait Item: Clone + Default {
+    /// The size as if nothing were shared, bytes.
+    fn bytes(&self) -> usize;
+
+    /// The characters of a text.
+    fn text(&self) -> &str;
+
+    /// Whether both are one object in memory.
+    fn is_shared(&self, other: &Self) -> bool;
+
+    /// The order of two objects of this type.
+    fn compare(&self, other: &Self, kind: u16, types: &[Parts]) -> Ordering;
+}
+
 /// A row of blocks of scalars and objects.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct List {
+pub struct List<T> {
     length: u32,
     width: u8,
     object_width: u8,
     held: usize,
     scalars: Vec<u64>,
-    objects: Vec<Object>,
+    objects: Vec<T>,
 }
 
 /// One block, borrowed.
-#[derive(Clone, Copy, Debug)]
-pub struct Block<'a> {
+#[derive(Debug)]
+pub struct Block<'a, T> {
     /// Its scalars.
     pub scalars: &'a [u64],
     /// Its objects.
-    pub objects: &'a [Object],
+    pub objects: &'a [T],
 }
 
-impl List {
+/// Not derived: it is copied whether or not its objects can be.
+impl<T> Clone for Block<'_, T> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Block<'_, T> {}
+
+impl<T: Item> List<T> {
     /// A list without elements, for blocks of this layout.
-    pub fn new(layout: &Layout) -> List {
+    pub fn new(layout: &Layout) -> List<T> {
         List {
             width: layout.scalars.len() as u8,
             object_width: layout.objects.len() as u8,
@@ -41,7 +70,7 @@ impl List {
     }
 
     /// A list of one scalar each, for instance of Ints.
-    pub fn of_scalars(scalars: Vec<u64>) -> List {
+    pub fn of_scalars(scalars: Vec<u64>) -> List<T> {
         List {
             length: scalars.len() as u32,
             width: 1,
@@ -51,7 +80,7 @@ impl List {
     }
 
     /// A list of Points.
-    pub fn of_points(points: &[starl_core::Point]) -> List {
+    pub fn of_points(points: &[starl_core::Point]) -> List<T> {
         let coordinates = points.iter().flat_map(|p| [p.x, p.y, p.z]);
         List {
             length: points.len() as u32,
@@ -62,11 +91,11 @@ impl List {
     }
 
     /// A list of one object each, for instance of texts.
-    pub fn of_objects(objects: Vec<Object>) -> List {
+    pub fn of_objects(objects: Vec<T>) -> List<T> {
         List {
             length: objects.len() as u32,
             object_width: 1,
-            held: objects.iter().map(Object::bytes).sum(),
+            held: objects.iter().map(T::bytes).sum(),
             objects,
             ..List::default()
         }
@@ -98,7 +127,7 @@ impl List {
     }
 
     /// The element at an index.
-    pub fn get(&self, index: usize) -> Option<Block<'_>> {
+    pub fn get(&self, index: usize) -> Option<Block<'_, T>> {
         if index >= self.len() {
             return None;
         }
@@ -135,7 +164,7 @@ impl List {
 
     /// The element at an index, of a list whose elements are one object each.
     #[inline]
-    pub fn object_at(&self, index: u64) -> Option<&Object> {
+    pub fn object_at(&self, index: u64) -> Option<&T> {
         match (self.width, self.object_width) {
             (0, 1) => self.objects.get(index as usize),
             _ => None,
@@ -143,12 +172,12 @@ impl List {
     }
 
     /// All elements in order.
-    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Block<'_>> {
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Block<'_, T>> {
         (0..self.len()).filter_map(|index| self.get(index))
     }
 
     /// Whether a block is as wide as the elements, and `index` is at most the size.
-    fn fits(&self, index: usize, block: Block<'_>) -> bool {
+    fn fits(&self, index: usize, block: Block<'_, T>) -> bool {
         index <= self.len()
             && block.scalars.len() == self.width as usize
             && block.objects.len() == self.object_width as usize
@@ -156,7 +185,7 @@ impl List {
 
     /// Replaces an element by a block; false if there is no such element or the block has another width.
     #[must_use]
-    pub fn set(&mut self, index: usize, block: Block<'_>) -> bool {
+    pub fn set(&mut self, index: usize, block: Block<'_, T>) -> bool {
         if index == self.len() || !self.fits(index, block) {
             return false;
         }
@@ -172,14 +201,14 @@ impl List {
     /// Inserts a block before an element or at the end; false if the index is greater or the block
     /// not as wide.
     #[must_use]
-    pub fn insert(&mut self, index: usize, block: Block<'_>) -> bool {
+    pub fn insert(&mut self, index: usize, block: Block<'_, T>) -> bool {
         if !self.fits(index, block) || self.length == u32::MAX {
             return false;
         }
         let (start, object_start) = self.starts(index);
         self.scalars
             .splice(start..start, block.scalars.iter().copied());
-        self.held += block.objects.iter().map(Object::bytes).sum::<usize>();
+        self.held += block.objects.iter().map(T::bytes).sum::<usize>();
         self.objects
             .splice(object_start..object_start, block.objects.iter().cloned());
         self.length += 1;
@@ -188,12 +217,12 @@ impl List {
 
     /// Adds a block at the end; false if it is not as wide as the others.
     #[must_use]
-    pub fn push(&mut self, block: Block<'_>) -> bool {
+    pub fn push(&mut self, block: Block<'_, T>) -> bool {
         if !self.fits(self.len(), block) || self.length == u32::MAX {
             return false;
         }
         self.scalars.extend_from_slice(block.scalars);
-        self.held += block.objects.iter().map(Object::bytes).sum::<usize>();
+        self.held += block.objects.iter().map(T::bytes).sum::<usize>();
         self.objects.extend_from_slice(block.objects);
         self.length += 1;
         true
@@ -225,13 +254,13 @@ impl List {
         self.scalars.drain(..start);
         self.objects.truncate(object_end);
         self.objects.drain(..object_start);
-        self.held = self.objects.iter().map(Object::bytes).sum();
+        self.held = self.objects.iter().map(T::bytes).sum();
         self.length = (last - first) as u32;
     }
 
     /// Adds all elements of another list; false if they are not as wide as this one's.
     #[must_use]
-    pub fn append(&mut self, other: &List) -> bool {
+    pub fn append(&mut self, other: &List<T>) -> bool {
         let Some(length) = self.length.checked_add(other.length) else {
             return false;
         };
@@ -246,7 +275,7 @@ impl List {
     }
 
     /// The list with its elements in the order that `order` gives as indices; others are left out.
-    pub fn arranged(&self, order: impl Iterator<Item = usize>) -> List {
+    pub fn arranged(&self, order: impl Iterator<Item = usize>) -> List<T> {
         let mut arranged = List {
             width: self.width,
             object_width: self.object_width,
@@ -269,12 +298,12 @@ impl List {
     }
 
     /// The list in ascending order; equal elements stay in the order that they had.
-    pub fn sorted(&self, layout: &Layout, types: &[Parts]) -> List {
+    pub fn sorted(&self, layout: &Layout, types: &[Parts]) -> List<T> {
         self.arranged(self.order(layout, types).into_iter())
     }
 
     /// The sorted list without its repeated elements.
-    pub fn deduplicated(&self, layout: &Layout, types: &[Parts]) -> List {
+    pub fn deduplicated(&self, layout: &Layout, types: &[Parts]) -> List<T> {
         let first = |&index: &usize| match (
             index.checked_sub(1).and_then(|i| self.get(i)),
             self.get(index),
@@ -287,8 +316,8 @@ impl List {
 
     /// Whether the element at an index is this one, where each is one Integer or one text.
     #[inline]
-    pub fn is_at(&self, index: usize, block: Block<'_>) -> bool {
-        let is_same = |text: &Object| {
+    pub fn is_at(&self, index: usize, block: Block<'_, T>) -> bool {
+        let is_same = |text: &T| {
             let found = self.objects.get(index);
             block.scalars.is_empty() && found.is_some_and(|found| found.text() == text.text())
         };
@@ -297,7 +326,7 @@ impl List {
 
     /// Whether the element at an index is this one, as far as that shows without comparing texts.
     #[inline]
-    pub fn is_surely_at(&self, index: usize, block: Block<'_>) -> bool {
+    pub fn is_surely_at(&self, index: usize, block: Block<'_, T>) -> bool {
         match (block.scalars, block.objects) {
             ([scalar], []) => self.scalars.get(index) == Some(scalar),
             ([], [text]) => self.objects.get(index).is_some_and(|o| o.is_shared(text)),
@@ -308,7 +337,7 @@ impl List {
     /// The index of a block in a sorted list, or the index at which it belongs.
     pub fn search(
         &self,
-        block: Block<'_>,
+        block: Block<'_, T>,
         layout: &Layout,
         types: &[Parts],
     ) -> Result<usize, usize> {
@@ -336,7 +365,7 @@ impl List {
     }
 
     /// The order of two lists of one layout: by the first elements that differ, then by size.
-    pub fn compare(&self, other: &List, layout: &Layout, types: &[Parts]) -> Ordering {
+    pub fn compare(&self, other: &List<T>, layout: &Layout, types: &[Parts]) -> Ordering {
         self.iter()
             .zip(other.iter())
             .map(|(left, right)| left.compare(right, layout, types))
@@ -345,7 +374,10 @@ impl List {
     }
 
     /// Whether the bits of all elements are the same.
-    pub fn same(&self, other: &List) -> bool {
+    pub fn same(&self, other: &List<T>) -> bool
+    where
+        T: PartialEq,
+    {
         self.length == other.length
             && self.scalars == other.scalars
             && self.objects == other.objects
@@ -359,9 +391,9 @@ impl List {
     }
 }
 
-impl Block<'_> {
+impl<T: Item> Block<'_, T> {
     /// The order of two values of one layout.
-    pub fn compare(self, other: Block<'_>, layout: &Layout, types: &[Parts]) -> Ordering {
+    pub fn compare(self, other: Self, layout: &Layout, types: &[Parts]) -> Ordering {
         let mut start = 0;
         let objects = self.objects.iter().zip(other.objects);
         let kinds = layout.objects.iter().zip(&layout.before);
@@ -378,7 +410,7 @@ impl Block<'_> {
         self.compare_scalars(other, layout, start..layout.scalars.len())
     }
 
-    fn compare_scalars(self, other: Block<'_>, layout: &Layout, range: Range<usize>) -> Ordering {
+    fn compare_scalars(self, other: Self, layout: &Layout, range: Range<usize>) -> Ordering {
         let scalars = self.scalars.iter().zip(other.scalars).zip(&layout.scalars);
         let scalars = scalars.take(range.end).skip(range.start);
         let mut orders = scalars.map(|((&left, &right), order)| match order {

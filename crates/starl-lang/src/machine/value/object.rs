@@ -6,15 +6,12 @@
 
 use crate::machine::types::{Layout, Parts};
 use crate::machine::value::index::{Found, Index};
-use crate::machine::value::list::{Block, List};
+use crate::machine::value::list::{self, Item, WORD};
 use alloc::string::String;
 use core::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 use starl_core::{Area, Digest, Shape};
 use triomphe::Arc;
-
-/// Bytes of a scalar, or of a reference to an object.
-pub const WORD: usize = 8;
 
 /// A text, collection, area or obstacles; one word.
 ///
@@ -38,6 +35,12 @@ pub enum Body {
     /// Obstacles.
     Obstacles(starl_core::motion::Obstacles),
 }
+
+/// A row of values of the language.
+pub type List = list::List<Object>;
+
+/// One value, borrowed.
+pub type Block<'a> = list::Block<'a, Object>;
 
 /// Keys in ascending order without repetitions, and at the same index the value of each. Both are
 /// objects that hold lists, so that they can be had without copying.
@@ -131,12 +134,6 @@ impl Object {
             Some(Body::Text(text)) => text,
             _ => "",
         }
-    }
-
-    /// Whether both hold the same body.
-    #[inline]
-    pub fn is_shared(&self, other: &Object) -> bool {
-        matches!((&self.0, &other.0), (Some(left), Some(right)) if Arc::ptr_eq(left, right))
     }
 
     /// The elements of a list or set; none if it is empty.
@@ -298,6 +295,28 @@ impl Object {
                 digest.bytes(&starl_core::message::encode(obstacles));
             }
         }
+    }
+}
+
+impl Item for Object {
+    #[inline]
+    fn bytes(&self) -> usize {
+        Object::bytes(self)
+    }
+
+    #[inline]
+    fn text(&self) -> &str {
+        Object::text(self)
+    }
+
+    #[inline]
+    fn is_shared(&self, other: &Object) -> bool {
+        matches!((&self.0, &other.0), (Some(left), Some(right)) if Arc::ptr_eq(left, right))
+    }
+
+    #[inline]
+    fn compare(&self, other: &Object, kind: u16, types: &[Parts]) -> Ordering {
+        Object::compare(self, other, kind, types)
     }
 }
 

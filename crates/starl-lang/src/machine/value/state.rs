@@ -1,7 +1,8 @@
 //! The state of a robot's program between activations: its variables and nothing else.
 
 use crate::machine::types::Layout;
-use crate::machine::value::object::{Object, WORD};
+use crate::machine::value::list::WORD;
+use crate::machine::value::object::Object;
 use alloc::boxed::Box;
 use serde::{Deserialize, Serialize};
 use starl_core::Digest;

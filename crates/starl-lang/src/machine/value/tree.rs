@@ -2,8 +2,7 @@
 
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, ObjectType, Type, is_tuple};
-use crate::machine::value::list::List;
-use crate::machine::value::object::{Body, Map, Object};
+use crate::machine::value::object::{Block, Body, List, Map, Object};
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -193,7 +192,7 @@ fn list<'a>(
         if !value.write(program, kind, &mut scalars, &mut objects) {
             return None;
         }
-        let block = crate::machine::value::list::Block {
+        let block = Block {
             scalars: &scalars,
             objects: &objects,
         };
