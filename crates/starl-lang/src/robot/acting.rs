@@ -4,8 +4,9 @@
 //! that it takes the same path.
 
 use super::atomic::{Script, Step, Values};
+use super::context::Context;
 use super::failure::Failure;
-use super::host::{Context, RobotHost};
+use super::host::RobotHost;
 use super::program::{Part, Phase, RobotProgram, Waiting};
 use super::reports::MOST_WAITING;
 use super::workbench::Workbench;

@@ -1,23 +1,16 @@
 //! A program that robots can run: bytecode that was verified and joined to what robots offer.
 
-use super::atomic::{self, Conflicts, Groups, join_groups};
-use super::defaults::defaults;
+use super::atomic::{Conflicts, Groups};
 use super::failure::Failure;
 use super::instance::Instance;
-use super::joint::{Joiner, Joint};
+use super::joint::Joint;
 use super::messages::Inbox;
 use super::orders::Orders;
-use super::primitives::KINDS;
-use super::rest;
 use super::services::{self, Needs, Services};
-use super::shape::Declared;
 use super::stable::Stable;
 use super::stage::Stage;
-use crate::machine::{
-    Action, Bytecode, Import, LoadError, Model, Origin, Program, RuntimeError, State,
-};
-use alloc::format;
-use alloc::string::{String, ToString};
+use crate::machine::{Action, Program, RuntimeError, State};
+use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use starl_core::Port;
@@ -25,70 +18,34 @@ use starl_policy::Network;
 
 /// A program that robots can run. Copies share it.
 #[derive(Clone)]
-pub struct Code(Arc<Inner>);
+pub struct Code(pub(super) Arc<Inner>);
 
-struct Inner {
-    program: Program,
-    joints: Vec<Joint>,
-    instances: Vec<Instance>,
-    groups: Groups,
+/// The parts of a program that robots can run.
+pub struct Inner {
+    pub program: Program,
+    pub joints: Vec<Joint>,
+    pub instances: Vec<Instance>,
+    pub groups: Groups,
     /// The conflicts of each action with `atomic`.
-    conflicts: Vec<Option<Conflicts>>,
+    pub conflicts: Vec<Option<Conflicts>>,
     /// See [`Code::is_steady`].
-    is_steady: bool,
+    pub is_steady: bool,
     /// The services that its primitives need.
-    needs: Needs,
+    pub needs: Needs,
     /// The same, made once for all robots: it takes longer to make than to copy.
-    services: Services,
-    inbox: Inbox,
-    orders: Orders,
-    stable: Vec<Stable>,
+    pub services: Services,
+    pub inbox: Inbox,
+    pub orders: Orders,
+    pub stable: Vec<Stable>,
     /// The networks of its models, in their order.
-    networks: Vec<Network>,
+    pub networks: Vec<Network>,
     /// Where the program says how far it is.
-    stage: Option<Stage>,
+    pub stage: Option<Stage>,
     /// The parameters' defaults; or what went wrong when they were worked out.
-    initial: Result<State, Failure>,
+    pub initial: Result<State, Failure>,
 }
 
 impl Code {
-    /// Verifies bytecode and joins it to what robots offer.
-    pub fn load(bytecode: Bytecode) -> Result<Code, LoadError> {
-        let joiner = Joiner::new(Declared::of(&bytecode));
-        let program = Program::load(bytecode, &|import: &Import| joiner.join(import))?;
-        let mut instances = instances(program.bytecode(), joiner.declared())?;
-        group(program.bytecode(), &mut instances)?;
-        let inbox = Inbox::of(program.bytecode(), joiner.declared());
-        let inbox = inbox.ok_or(LoadError::Invalid {
-            position: None,
-            reason: "a message's handler does not take the sender and the message's fields",
-        })?;
-        let orders = Orders::of(program.bytecode()).ok_or(LoadError::Invalid {
-            position: None,
-            reason: "handlers of one input have different fields",
-        })?;
-        let networks = networks(program.bytecode())?;
-        let stable = Stable::of(program.bytecode(), joiner.declared());
-        let initial = defaults(&program);
-        let joints = joiner.finish();
-        Ok(Code(Arc::new(Inner {
-            initial: initial.map_err(|error| failure(&program, &error)),
-            is_steady: rest::is_steady(program.bytecode(), &joints),
-            joints,
-            services: Services::of(&program.bytecode().name, needs(&instances)),
-            needs: needs(&instances),
-            groups: Groups::new(&program.bytecode().actions, &instances),
-            conflicts: Conflicts::of(program.bytecode()),
-            stage: Stage::of(program.bytecode()),
-            program,
-            instances,
-            inbox,
-            orders,
-            stable,
-            networks,
-        })))
-    }
-
     /// The program.
     pub fn program(&self) -> &Program {
         &self.0.program
@@ -208,91 +165,6 @@ impl Code {
 
     /// An error with its place: `race.starl:12:5: index 5 is out of range 0..3`.
     pub fn describe(&self, error: &RuntimeError) -> Failure {
-        failure(self.program(), error)
+        Failure::of(self.program(), error)
     }
-}
-
-fn failure(program: &Program, error: &RuntimeError) -> Failure {
-    let function = || Some(program.function_at(error.position)?.name.clone());
-    Failure::Fault {
-        place: program.source(error.position).or_else(function),
-        fault: error.fault.clone(),
-    }
-}
-
-/// The networks of a program's models.
-fn networks(bytecode: &Bytecode) -> Result<Vec<Network>, LoadError> {
-    let read = |model: &Model| {
-        Network::read(&model.bytes).map_err(|error| LoadError::Model {
-            path: model.path.clone(),
-            reason: error.to_string(),
-        })
-    };
-    bytecode.models.iter().map(read).collect()
-}
-
-/// The primitives that a program binds, with the handlers of their events.
-fn instances(bytecode: &Bytecode, declared: &Declared) -> Result<Vec<Instance>, LoadError> {
-    let mut instances = Vec::new();
-    for (index, binding) in bytecode.primitives.iter().enumerate() {
-        let Some(kind) = KINDS.iter().position(|kind| kind.name == binding.kind) else {
-            return Err(LoadError::UnknownImport(binding.kind.clone()));
-        };
-        let mut handlers = Vec::new();
-        for (number, handler) in bytecode.handlers.iter().enumerate() {
-            if handler.origin != Origin::Primitive(index as u32) {
-                continue;
-            }
-            let function = bytecode.functions.get(handler.function as usize);
-            let events = KINDS[kind].events.iter();
-            let event = events.enumerate().find(|(_, event)| {
-                event.name == handler.event
-                    && function.is_some_and(|f| declared.all(event.parameters, &f.arguments))
-            });
-            let Some((event, _)) = event else {
-                let name = format!("{}.{}", binding.kind, handler.event);
-                return Err(LoadError::UnknownImport(name));
-            };
-            handlers.push((event, number as u32));
-        }
-        instances.push(Instance {
-            name: format!("{}/{}", bytecode.name, binding.name),
-            variable: binding.name.clone(),
-            group: binding.name.clone(),
-            kind: kind as u16,
-            handlers,
-        });
-    }
-    Ok(instances)
-}
-
-/// Gives each linearizable variable the name of its group.
-fn group(bytecode: &Bytecode, instances: &mut [Instance]) -> Result<(), LoadError> {
-    let actions = bytecode.actions.iter();
-    let actions: Vec<Vec<u32>> = actions.map(|action| action.atomic.clone()).collect();
-    for instance in actions.iter().flatten() {
-        let kind = bytecode.primitives.get(*instance as usize);
-        if kind.is_none_or(|binding| binding.kind != atomic::KIND) {
-            return Err(LoadError::Invalid {
-                position: None,
-                reason: "an action waits for something else than a linearizable variable",
-            });
-        }
-    }
-    for (number, first) in join_groups(instances.len(), &actions)
-        .into_iter()
-        .enumerate()
-    {
-        if let Some(name) = bytecode.primitives.get(first as usize) {
-            instances[number].group = name.name.clone();
-        }
-    }
-    Ok(())
-}
-
-fn needs(instances: &[Instance]) -> Needs {
-    let kinds = instances
-        .iter()
-        .filter_map(|instance| KINDS.get(usize::from(instance.kind)));
-    kinds.fold(Needs::NOTHING, |needs, kind| needs.or(kind.needs))
 }

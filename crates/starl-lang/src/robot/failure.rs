@@ -1,6 +1,6 @@
 //! Why a program on a robot stops.
 
-use crate::machine::Fault;
+use crate::machine::{Fault, Program, RuntimeError};
 use alloc::string::String;
 use starl_primitives::register::OperationError;
 use thiserror::Error;
@@ -22,4 +22,15 @@ pub enum Failure {
     /// An action with `atomic` cannot be stored.
     #[error("what an atomic action wrote is not stored: {0}")]
     NotStored(OperationError),
+}
+
+impl Failure {
+    /// An error with its place in the program's text.
+    pub(super) fn of(program: &Program, error: &RuntimeError) -> Failure {
+        let function = || Some(program.function_at(error.position)?.name.clone());
+        Failure::Fault {
+            place: program.source(error.position).or_else(function),
+            fault: error.fault.clone(),
+        }
+    }
 }

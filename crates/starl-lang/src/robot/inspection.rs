@@ -1,8 +1,9 @@
 //! Inspects a program that runs on a robot, without changing it: for observers and debuggers.
 
 use super::atomic::Script;
+use super::context::Context;
 use super::failure::Failure;
-use super::host::{Context, RobotHost};
+use super::host::RobotHost;
 use super::primitives::KINDS;
 use super::program::{Phase, RobotProgram};
 use super::words::type_name;

@@ -14,13 +14,17 @@ mod arguments;
 mod atomic;
 mod builtins;
 mod code;
+mod context;
 mod corruption;
 mod defaults;
+mod dispatch;
 mod failure;
 mod host;
 mod inspection;
 mod instance;
+mod joiner;
 mod joint;
+mod load;
 mod messages;
 mod orders;
 mod pace;
@@ -40,21 +44,7 @@ mod workbench;
 pub use code::Code;
 pub use failure::Failure;
 pub use inspection::{ActionState, PrimitiveState, VariableState};
+pub use joiner::functions;
 pub use orders::{Orders, WrongField};
 pub use parameter::ParameterError;
 pub use program::RobotProgram;
-
-use alloc::string::{String, ToString};
-
-/// The names of all functions that programs can import, as [`crate::machine::Import`] has them.
-pub fn functions() -> impl Iterator<Item = String> {
-    let builtins = builtins::BUILTINS.iter().map(|b| &b.signature);
-    let observables = properties::observables().map(|o| &o.signature);
-    let plain = builtins.chain(observables).map(|s| s.name.to_string());
-    let members = primitives::KINDS.iter().flat_map(|kind| {
-        let names = kind.members().map(|signature| signature.name);
-        let names = ["bind"].into_iter().chain(names);
-        names.map(|name| alloc::format!("{}.{name}", kind.name))
-    });
-    plain.chain(members)
-}

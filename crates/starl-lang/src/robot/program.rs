@@ -2,9 +2,10 @@
 
 use super::atomic::{Conflicts, Script, Turn, reads};
 use super::code::Code;
+use super::context::Context;
 use super::corruption;
 use super::failure::Failure;
-use super::host::{Context, RobotHost};
+use super::host::RobotHost;
 use super::messages::Arrival;
 use super::pace::Pace;
 use super::parameter::{self, ParameterError};

@@ -6,7 +6,7 @@
 //! primitive's values change only after an input or when an activation acts on it. The waypoints change only with an
 //! order, which ends the rest.
 
-use super::joint::{Joint, OnRobot};
+use super::joint::Joint;
 use crate::machine::{Action, Bytecode, Instruction};
 use alloc::vec::Vec;
 use starl_core::{Input, Port, Primitive, Robot};
@@ -19,16 +19,9 @@ pub fn is_steady(bytecode: &Bytecode, joints: &[Joint]) -> bool {
     let guards: Vec<u32> = bytecode.actions.iter().map(|action| action.guard).collect();
     let is_steady = |instruction: &&Instruction| match instruction {
         Instruction::CallHost { import, .. } => {
-            let index = import.0 as usize;
             // Imports are joined in their order.
-            let joint = joints.get(index).and_then(|joint| joint.on_robot);
-            match joint {
-                Some(OnRobot::Builtin(builtin)) => builtin.is_steady,
-                Some(OnRobot::Member { .. }) => {
-                    bytecode.imports.get(index).is_some_and(|i| i.query)
-                }
-                Some(OnRobot::Bind(_)) | None => false,
-            }
+            let joint = joints.get(import.0 as usize);
+            joint.is_some_and(|joint| joint.is_steady)
         }
         Instruction::LoadOther { .. } | Instruction::LoadOtherObject { .. } => false,
         _ => true,

@@ -3,6 +3,7 @@
 //! The writes of an action with `atomic` are computed first, then stored, and then the action takes place. Nothing that
 //! the action depends on may change meanwhile, so parts that use the same variables or the same kind of primitive wait.
 
+use super::groups::KIND;
 use crate::machine::operand::{FIRST_STATE_OPERAND, Use};
 use crate::machine::{Bytecode, Instruction};
 use alloc::boxed::Box;
@@ -121,7 +122,7 @@ impl Footprint {
                 // Linearizable variables are used by actions with `atomic` only, one at a time.
                 if let Some(import) = import
                     && let Some((kind, _)) = import.name.split_once('.')
-                    && kind != super::KIND
+                    && kind != KIND
                 {
                     let places = match import.query {
                         true => &mut self.read,

@@ -5,6 +5,9 @@ use crate::robot::instance::Instance;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+/// The kind of primitive that linearizable variables are.
+pub const KIND: &str = "Linearizable";
+
 /// For each action of a program, the group of variables that it must have for itself; none if it needs none.
 #[derive(Clone, Debug)]
 pub struct Groups(Vec<Option<Box<str>>>);

@@ -21,7 +21,7 @@ mod script;
 mod turn;
 
 pub use footprint::{Conflicts, reads};
-pub use groups::{Groups, join_groups};
+pub use groups::{Groups, KIND, join_groups};
 pub use script::Script;
 pub use turn::Turn;
 
@@ -33,9 +33,6 @@ use starl_core::{Input, Payload, Port, Primitive, Random, Robot, message};
 use starl_primitives::mutex::{self, Algorithm, Resources};
 use starl_primitives::register::{self, OperationError, OperationId, Status};
 use starl_primitives::{Mutex, Register};
-
-/// The kind of primitive that linearizable variables are.
-pub const KIND: &str = "Linearizable";
 
 /// The locks and the values, and how far this robot is with an action.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Output to observers: logs, events and drawings.
 
 use crate::machine::{HostCall, Value};
-use crate::robot::Failure;
 use crate::robot::arguments::{Arguments, Called};
+use crate::robot::failure::Failure;
 use crate::robot::host::RobotHost;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

@@ -4,43 +4,13 @@
 //! Invariant: a primitive with new reports has handled an input, has been called by the program, or was corrupted since
 //! its reports were last collected.
 
-use super::{Bound, KINDS, Report};
+use super::bound::BoundPrimitive;
+use super::kind::Report;
+use super::kinds::KINDS;
 use crate::robot::instance::Instance;
 use crate::robot::rest::Disturbing;
-use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::fmt;
 use starl_core::{Input, Payload, Port, Primitive, Robot};
-
-/// A primitive of the program, with the data by which the host skips it when it has no work.
-#[derive(Clone)]
-pub struct BoundPrimitive {
-    /// The primitive.
-    pub bound: Box<dyn Bound>,
-    /// Where it listens; nowhere, if it has no state machine of its own.
-    pub port: Option<Port>,
-    /// Whether the program may have called it, or a fault changed it, since its reports were collected.
-    pub is_stirred: bool,
-}
-
-impl BoundPrimitive {
-    /// A new primitive, which the host visits first.
-    pub fn new(mut bound: Box<dyn Bound>) -> BoundPrimitive {
-        let port = bound.primitive().map(|primitive| primitive.port());
-        BoundPrimitive {
-            bound,
-            port,
-            is_stirred: true,
-        }
-    }
-}
-
-/// Shows the primitive alone: the rest follows from it, or has no effect.
-impl fmt::Debug for BoundPrimitive {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.bound.fmt(f)
-    }
-}
 
 /// A primitive whose reports are collected after each input. If the program handles them the robot delivers an empty
 /// message to itself, so that they are handled immediately.

@@ -1,6 +1,10 @@
 //! Barrier in programs.
 
-use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
+use super::kind::{Kind, Member, method, query};
+use crate::robot::arguments::Arguments;
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
+use crate::robot::services::Needs;
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
 use alloc::format;

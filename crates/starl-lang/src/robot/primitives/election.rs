@@ -1,7 +1,11 @@
 //! LeaderElection in programs.
 
-use super::{Arguments, Context, Event, Instance, Kind, Member, Needs, Report, method, query};
+use super::kind::{Event, Kind, Member, Report, method, query};
 use crate::machine::HostCall;
+use crate::robot::arguments::Arguments;
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
+use crate::robot::services::Needs;
 use crate::robot::shape::{ELECTION_ALGORITHMS, Shape};
 use alloc::borrow::Cow;
 use alloc::format;

@@ -4,9 +4,13 @@
 //! An action with `atomic` reads the latest values. Its guard is first evaluated on the values that this robot knows,
 //! which may be older or missing.
 
+use super::kind::{Kind, Member, method, query};
 use super::shared::{CONSISTENCY, give, value};
-use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
+use crate::robot::arguments::Arguments;
 use crate::robot::atomic::{self, Atomic};
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
+use crate::robot::services::Needs;
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
 use starl_core::{Payload, Primitive, Random};

@@ -1,6 +1,9 @@
 //! LocalBroadcast in programs.
 
-use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, method};
+use super::kind::{Attention, Event, Kind, Member, method};
+use crate::robot::arguments::Arguments;
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
 use starl_core::{Primitive, Random};

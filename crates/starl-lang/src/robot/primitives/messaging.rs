@@ -3,9 +3,11 @@
 //! A program identifies its messages by its own numbers, which count from 1 over all receivers; the protocol counts
 //! separately for each receiver. Only outstanding messages are stored.
 
-use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Report, method, query};
+use super::kind::{Attention, Event, Kind, Member, Report, method, query};
 use crate::machine::HostCall;
-use crate::robot::arguments::Called;
+use crate::robot::arguments::{Arguments, Called};
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
 use crate::robot::shape::{ORDERS, Shape};
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;

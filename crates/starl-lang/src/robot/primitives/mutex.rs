@@ -1,7 +1,11 @@
 //! Mutex in programs.
 
-use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
+use super::kind::{Kind, Member, method, query};
 use crate::machine::{Body, List, Object};
+use crate::robot::arguments::Arguments;
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
+use crate::robot::services::Needs;
 use crate::robot::shape::{MUTEX_ALGORITHMS, Shape};
 use alloc::borrow::Cow;
 use alloc::boxed::Box;

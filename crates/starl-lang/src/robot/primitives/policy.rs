@@ -1,7 +1,10 @@
 //! Policy in programs: a trained network, from a file beside the program.
 
-use super::{Arguments, Attention, Context, Instance, Kind, Member, query};
+use super::kind::{Attention, Kind, Member, query};
 use crate::machine::List;
+use crate::robot::arguments::Arguments;
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
 use alloc::format;

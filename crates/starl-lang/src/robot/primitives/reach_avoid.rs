@@ -1,6 +1,9 @@
 //! ReachAvoid in programs.
 
-use super::{Arguments, Attention, Context, Instance, Kind, Member, method, query};
+use super::kind::{Attention, Kind, Member, method, query};
+use crate::robot::arguments::Arguments;
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
 use crate::robot::shape::{MOTION_TROUBLES, PLANNERS, Shape};
 use alloc::borrow::Cow;
 use starl_core::{Point, Primitive, Random, Robot};

@@ -1,8 +1,11 @@
 //! Registration in programs.
 
-use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
+use super::kind::{Kind, Member, method, query};
 use crate::machine::{HostCall, Object};
-use crate::robot::arguments::Called;
+use crate::robot::arguments::{Arguments, Called};
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
+use crate::robot::services::Needs;
 use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;

@@ -4,9 +4,12 @@
 //! The writes of other robots arrive from the network. A value that does not have the variable's type counts as never
 //! written.
 
-use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
+use super::kind::{Kind, Member, method, query};
 use crate::machine::{Block, Body, HostCall, Layout, List, Map, Object, ObjectType, Program, Type};
-use crate::robot::arguments::Called;
+use crate::robot::arguments::{Arguments, Called};
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
+use crate::robot::services::Needs;
 use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;

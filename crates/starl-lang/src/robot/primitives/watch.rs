@@ -2,7 +2,11 @@
 //!
 //! There is one detector for all primitives of a program; any number of instances read it.
 
-use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Needs, Report, query};
+use super::kind::{Attention, Event, Kind, Member, Report, query};
+use crate::robot::arguments::Arguments;
+use crate::robot::context::Context;
+use crate::robot::instance::Instance;
+use crate::robot::services::Needs;
 use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;

@@ -1,8 +1,8 @@
 //! A condition over robots, evaluated at one moment: for breakpoints and other observers that wait for it.
 
-use super::Fleet;
 use super::evaluation::limits;
-use super::observables::{Counted, PropertyHost};
+use super::fleet::Fleet;
+use super::host::{Counted, PropertyHost};
 use crate::machine::{Claim, Fault, Machine};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;

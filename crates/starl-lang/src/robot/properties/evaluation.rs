@@ -1,9 +1,9 @@
 //! Evaluates one property at one moment for all tuples of robots.
 
+use super::excuse::{Excuse, RECOVERY};
 use super::history::{CLOSED, History, Row, UNKNOWN};
-use super::observables::PropertyHost;
+use super::host::PropertyHost;
 use super::violation::{Reason, Violation};
-use super::{Excuse, RECOVERY};
 use crate::machine::{Claim, Limits, Machine, Property, Workspace};
 use alloc::vec::Vec;
 use starl_core::{Duration, RobotId, Time};

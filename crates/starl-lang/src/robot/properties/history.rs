@@ -3,7 +3,7 @@
 //! Only exceptional tuples of robots are stored: those for which an eventual condition has become true, those that wait
 //! for a consequence, and those that violate the property.
 
-use super::Excuse;
+use super::excuse::Excuse;
 use super::reads::Reads;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;

@@ -2,11 +2,12 @@
 //! verdicts.
 
 use super::evaluation::Evaluation;
+use super::excuse::Excuse;
+use super::fleet::Fleet;
 use super::history::{History, Row, UNKNOWN};
-use super::observables::{Counted, PropertyHost};
+use super::host::{Counted, PropertyHost};
 use super::reads::Reads;
 use super::violation::Violation;
-use super::{Excuse, Fleet};
 use crate::machine::{Claim, Property};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;

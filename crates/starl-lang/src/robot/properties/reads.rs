@@ -1,6 +1,6 @@
 //! The variables that a property reads: for the excuse of overwritten variables, and for the report of a violation.
 
-use super::Fleet;
+use super::fleet::Fleet;
 use crate::machine::{
     Bytecode, Claim, Import, Instruction, Layout, ObjectType, Program, Type, Value,
 };

@@ -1,9 +1,9 @@
 //! Violations of properties.
 
-use super::observables::PropertyHost;
+use super::host::PropertyHost;
 use super::reads::{Reads, first_function};
 use crate::machine::{Property, Value};
-use crate::robot::Failure;
+use crate::robot::failure::Failure;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
