@@ -255,14 +255,9 @@ macro_rules! field_table {
         }
     ) => {
         impl $crate::fields::FieldTable for $name {
-            const FIELDS: &'static [$crate::fields::schema::Field] = &[
-                $($crate::fields::schema::Field {
-                    name: stringify!($field),
-                    kind: $kind,
-                    default: $crate::fields::schema::Default::$how($default),
-                    about: concat!($($about),+).trim_ascii(),
-                },)+
-            ];
+            const FIELDS: &'static [$crate::fields::schema::Field] = $crate::fields::schema::fields! {
+                $($(#[doc = $about])+ $field = $kind, $how($default);)+
+            };
 
             fn read_over(section: $crate::fields::section::Section<'_>, base: &$name) -> $name {
                 // A field that is not declared does not compile.

@@ -91,43 +91,22 @@ pub enum Kind {
     Switch(&'static [Field]),
 }
 
-pub(crate) const fn field(
-    name: &'static str,
-    kind: Kind,
-    default: Default,
-    about: &'static str,
-) -> Field {
-    Field {
-        name,
-        kind,
-        default,
-        about,
-    }
+/// Declares fields: for each its name, its kind and its default. The comment is the meaning in the reference.
+macro_rules! fields {
+    ($($(#[doc = $about:literal])+ $name:ident = $kind:expr, $how:ident $(($default:expr))?;)+) => {
+        &[$($crate::fields::schema::Field {
+            name: stringify!($name),
+            kind: $kind,
+            default: $crate::fields::schema::Default::$how $(($default))?,
+            about: concat!($($about),+).trim_ascii(),
+        },)+]
+    };
 }
 
-pub(crate) const fn table(
-    name: &'static str,
-    fields: &'static [Field],
-    about: &'static str,
-) -> Field {
-    field(
-        name,
-        Kind::Table(fields),
-        Default::Value("all at their defaults"),
-        about,
-    )
-}
+pub(crate) use fields;
 
-pub(crate) const fn tables(
-    name: &'static str,
-    fields: &'static [Field],
-    about: &'static str,
-) -> Field {
-    field(name, Kind::Tables(fields), Default::Word("none"), about)
-}
-
-/// Several lists of fields, one behind the other.
-pub(crate) const fn join<const COUNT: usize>(lists: &[&[Field]]) -> [Field; COUNT] {
+/// Several lists, one behind the other.
+pub(crate) const fn join<T: Copy, const COUNT: usize>(lists: &[&[T]]) -> [T; COUNT] {
     let mut all = [lists[0][0]; COUNT];
     let (mut list, mut count) = (0, 0);
     while list < lists.len() {

@@ -1,9 +1,9 @@
-//! The fields of `fault` and `fault_rates`.
+//! The fields of `fault`.
 
 use super::*;
 
 /// The kinds of faults.
-const KINDS: &[&str] = &[
+pub(super) const KINDS: &[&str] = &[
     "crash",
     "restart",
     "partition",
@@ -16,29 +16,13 @@ const KINDS: &[&str] = &[
 ];
 
 /// A fault on the schedule.
-pub(super) const FAULT: &[Field] = &[
-    field(
-        "at",
-        TIME,
-        Default::Required,
-        "The time at which it begins.",
-    ),
-    field(
-        "kind",
-        Kind::Choice(KINDS),
-        Default::Required,
-        "The kind of fault; see the list below.",
-    ),
-    field(
-        "robots",
-        Kind::Robots,
-        Default::Depends("required, but not for `partition`, `one_way` and `heal`"),
-        "The robots concerned.",
-    ),
-    field(
-        "groups",
-        Kind::RobotGroups,
-        Default::Depends("required for `partition` and `one_way`, not for others"),
-        "The parts of the fleet; all other robots form one more part.",
-    ),
-];
+pub(super) const FAULT: &[Field] = fields! {
+    /// The time at which it begins.
+    at = TIME, Required;
+    /// The kind of fault; see the list below.
+    kind = Kind::Choice(KINDS), Required;
+    /// The robots concerned.
+    robots = Kind::Robots, Depends("required, but not for `partition`, `one_way` and `heal`");
+    /// The parts of the fleet; all other robots form one more part.
+    groups = Kind::RobotGroups, Depends("required for `partition` and `one_way`, not for others");
+};

@@ -18,17 +18,9 @@ pub use settings::SCENARIO;
 use crate::fields::FieldTable;
 
 /// A box in the floor plane, given by two corners.
-const CORNERS: &[Field] = &[
-    field(
-        "low",
-        Kind::PlanarPoint,
-        Default::Required,
-        "Corner with the lowest x and y.",
-    ),
-    field(
-        "high",
-        Kind::PlanarPoint,
-        Default::Required,
-        "Corner with the highest x and y.",
-    ),
-];
+const CORNERS: &[Field] = fields! {
+    /// Corner with the lowest x and y.
+    low = Kind::PlanarPoint, Required;
+    /// Corner with the highest x and y.
+    high = Kind::PlanarPoint, Required;
+};

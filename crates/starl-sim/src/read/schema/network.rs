@@ -5,14 +5,13 @@ use super::*;
 use crate::scenario::{Link, Network};
 
 /// How messages travel.
-pub(super) const NETWORK: &[Field] = &join::<{ KNOBS.len() + 2 }>(&[
+pub(super) const NETWORK: &[Field] = &join::<Field, { KNOBS.len() + 2 }>(&[
     KNOBS,
     &[RESOLUTION],
-    &[tables(
-        "link",
-        LINK,
-        "Links that differ from the rest; the last that matches counts.",
-    )],
+    fields! {
+        /// Links that differ from the rest; the last that matches counts.
+        link = Kind::Tables(LINK), Word("none");
+    },
 ]);
 
 /// The resolution is the only field of the network that cannot be changed during a run.
@@ -23,7 +22,8 @@ const PARTS: (Field, &[Field]) = match Network::FIELDS.split_last() {
 const RESOLUTION: Field = PARTS.0;
 
 /// Fields that can also be changed during a run.
-const KNOBS: &[Field] = &join::<{ Link::FIELDS.len() + PARTS.1.len() }>(&[Link::FIELDS, PARTS.1]);
+const KNOBS: &[Field] =
+    &join::<Field, { Link::FIELDS.len() + PARTS.1.len() }>(&[Link::FIELDS, PARTS.1]);
 
 /// Their names.
 pub(in crate::read) const KNOB_NAMES: &[&str] = &{
@@ -38,7 +38,7 @@ pub(in crate::read) const KNOB_NAMES: &[&str] = &{
 
 /// The same in an event, in which omitted fields do not change.
 pub(super) const CHANGES: &[Field] = &{
-    let mut fields = join::<{ KNOBS.len() }>(&[KNOBS]);
+    let mut fields = join::<Field, { KNOBS.len() }>(&[KNOBS]);
     let mut index = 0;
     while index < fields.len() {
         fields[index].default = Default::Kept(match fields[index].default {
@@ -51,11 +51,13 @@ pub(super) const CHANGES: &[Field] = &{
 };
 
 const LINK: &[Field] = &{
-    let ends = [
-        field("from", Kind::Robots, Default::Word("all"), "Senders."),
-        field("to", Kind::Robots, Default::Word("all"), "Receivers."),
-    ];
-    let mut fields = join::<{ Link::FIELDS.len() + 2 }>(&[&ends, Link::FIELDS]);
+    let ends = fields! {
+        /// Senders.
+        from = Kind::Robots, Word("all");
+        /// Receivers.
+        to = Kind::Robots, Word("all");
+    };
+    let mut fields = join::<Field, { Link::FIELDS.len() + 2 }>(&[ends, Link::FIELDS]);
     let mut index = ends.len();
     while index < fields.len() {
         fields[index].default = Default::Depends("the network's");
