@@ -103,15 +103,8 @@ impl Intervention {
                 robots.sort_unstable();
                 robots.windows(2).all(|pair| pair[0] != pair[1])
             }
-            Intervention::Fault(
-                FaultKind::Crash(robots)
-                | FaultKind::Restart(robots)
-                | FaultKind::StuckMotor(robots)
-                | FaultKind::FrozenSensor(robots)
-                | FaultKind::Repair(robots)
-                | FaultKind::CorruptState(robots),
-            )
-            | Intervention::Leave(robots) => !robots.is_empty(),
+            Intervention::Fault(kind) => kind.robots().is_some_and(|robots| !robots.is_empty()),
+            Intervention::Leave(robots) => !robots.is_empty(),
             Intervention::Push { by, .. } => by.is_finite(),
             Intervention::Network(knobs) => {
                 !knobs.is_empty() && knobs.iter().all(NetworkKnob::is_valid)
@@ -146,19 +139,11 @@ impl Intervention {
     /// network's knobs in the order of [`NetworkKnob`], the fields of an order by name, each once.
     pub fn tidy(mut self) -> Intervention {
         match &mut self {
-            Intervention::Fault(kind) => match kind {
-                FaultKind::Crash(robots)
-                | FaultKind::Restart(robots)
-                | FaultKind::StuckMotor(robots)
-                | FaultKind::FrozenSensor(robots)
-                | FaultKind::Repair(robots)
-                | FaultKind::CorruptState(robots) => sort(robots),
-                FaultKind::Partition(groups) | FaultKind::OneWay(groups) => {
-                    groups.iter_mut().for_each(sort);
-                    groups.retain(|group| !group.is_empty());
-                }
-                FaultKind::Heal => {}
-            },
+            Intervention::Fault(FaultKind::Partition(groups) | FaultKind::OneWay(groups)) => {
+                groups.iter_mut().for_each(sort);
+                groups.retain(|group| !group.is_empty());
+            }
+            Intervention::Fault(kind) => kind.robots_mut().into_iter().for_each(sort),
             Intervention::Leave(robots) => sort(robots),
             Intervention::Network(knobs) => {
                 // The last of several positions of a knob counts.
@@ -193,18 +178,10 @@ impl Intervention {
     /// The robots that it names.
     pub fn robots(&self) -> Vec<RobotId> {
         match self {
-            Intervention::Fault(kind) => match kind {
-                FaultKind::Partition(groups) | FaultKind::OneWay(groups) => {
-                    groups.iter().flatten().copied().collect()
-                }
-                FaultKind::Heal => Vec::new(),
-                FaultKind::Crash(robots)
-                | FaultKind::Restart(robots)
-                | FaultKind::StuckMotor(robots)
-                | FaultKind::FrozenSensor(robots)
-                | FaultKind::Repair(robots)
-                | FaultKind::CorruptState(robots) => robots.clone(),
-            },
+            Intervention::Fault(FaultKind::Partition(groups) | FaultKind::OneWay(groups)) => {
+                groups.iter().flatten().copied().collect()
+            }
+            Intervention::Fault(kind) => kind.robots().unwrap_or_default().to_vec(),
             Intervention::Push { robot, .. } => vec![*robot],
             Intervention::Join { like, .. } => vec![*like],
             Intervention::Leave(robots) | Intervention::Tell { robots, .. } => robots.clone(),
@@ -253,6 +230,34 @@ pub enum FaultKind {
     Repair(Vec<RobotId>),
     /// The programs' variables are overwritten at random, within their types.
     CorruptState(Vec<RobotId>),
+}
+
+impl FaultKind {
+    /// The robots of a fault of single robots; `None` for a fault of the network.
+    pub fn robots(&self) -> Option<&[RobotId]> {
+        match self {
+            FaultKind::Crash(robots)
+            | FaultKind::Restart(robots)
+            | FaultKind::StuckMotor(robots)
+            | FaultKind::FrozenSensor(robots)
+            | FaultKind::Repair(robots)
+            | FaultKind::CorruptState(robots) => Some(robots),
+            FaultKind::Partition(_) | FaultKind::OneWay(_) | FaultKind::Heal => None,
+        }
+    }
+
+    /// As [`FaultKind::robots`], to be changed.
+    pub fn robots_mut(&mut self) -> Option<&mut Vec<RobotId>> {
+        match self {
+            FaultKind::Crash(robots)
+            | FaultKind::Restart(robots)
+            | FaultKind::StuckMotor(robots)
+            | FaultKind::FrozenSensor(robots)
+            | FaultKind::Repair(robots)
+            | FaultKind::CorruptState(robots) => Some(robots),
+            FaultKind::Partition(_) | FaultKind::OneWay(_) | FaultKind::Heal => None,
+        }
+    }
 }
 
 /// One knob of the network with its new position. The first seven are those of all links that the

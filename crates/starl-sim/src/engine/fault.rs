@@ -26,50 +26,28 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
         }
     };
     let robots: Vec<RobotId> = (0..scenario.fleet.len() as u32).map(RobotId).collect();
+    type Make = fn(Vec<RobotId>) -> FaultKind;
+    /// The time until the end of a fault, and the end; none for a fault that does not end.
+    type End = Option<(Duration, Make)>;
+    let repair: End = Some((rates.repair_after, FaultKind::Repair));
+    let restart: End = Some((rates.restart_after, FaultKind::Restart));
+    let of_one: [(u64, Make, f64, End); 4] = [
+        (1, FaultKind::Crash, rates.crash, restart),
+        (2, FaultKind::StuckMotor, rates.stuck_motor, repair),
+        (3, FaultKind::FrozenSensor, rates.frozen_sensor, repair),
+        (4, FaultKind::CorruptState, rates.corrupt_state, None),
+    ];
     for &robot in &robots {
-        let id = u64::from(robot.0);
-        let mut both = |at: Time, kind: FaultKind, after: Duration, end: FaultKind| {
-            faults.push(Fault { at, kind });
-            if !after.is_zero() {
-                faults.push(Fault {
-                    at: at + after,
-                    kind: end,
-                });
-            }
-        };
-        let one = || vec![robot];
-        draw(1, id, rates.crash, &mut |at, _| {
-            both(
-                at,
-                FaultKind::Crash(one()),
-                rates.restart_after,
-                FaultKind::Restart(one()),
-            );
-        });
-        draw(2, id, rates.stuck_motor, &mut |at, _| {
-            both(
-                at,
-                FaultKind::StuckMotor(one()),
-                rates.repair_after,
-                FaultKind::Repair(one()),
-            );
-        });
-        draw(3, id, rates.frozen_sensor, &mut |at, _| {
-            both(
-                at,
-                FaultKind::FrozenSensor(one()),
-                rates.repair_after,
-                FaultKind::Repair(one()),
-            );
-        });
-        draw(4, id, rates.corrupt_state, &mut |at, _| {
-            both(
-                at,
-                FaultKind::CorruptState(one()),
-                Duration::ZERO,
-                FaultKind::Heal,
-            );
-        });
+        for (purpose, begin, rate, end) in of_one {
+            draw(purpose, robot.0.into(), rate, &mut |at, _| {
+                let kind = begin(vec![robot]);
+                faults.push(Fault { at, kind });
+                if let Some((after, end)) = end.filter(|(after, _)| !after.is_zero()) {
+                    let (at, kind) = (at + after, end(vec![robot]));
+                    faults.push(Fault { at, kind });
+                }
+            });
+        }
     }
     draw(5, 0, rates.partition, &mut |at, random| {
         let half = robots
@@ -77,15 +55,11 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
             .copied()
             .filter(|_| random.chance(0.5))
             .collect();
-        faults.push(Fault {
-            at,
-            kind: FaultKind::Partition(vec![half]),
-        });
+        let kind = FaultKind::Partition(vec![half]);
+        faults.push(Fault { at, kind });
         if !rates.heal_after.is_zero() {
-            faults.push(Fault {
-                at: at + rates.heal_after,
-                kind: FaultKind::Heal,
-            });
+            let (at, kind) = (at + rates.heal_after, FaultKind::Heal);
+            faults.push(Fault { at, kind });
         }
     });
     faults.sort_by_key(|fault| fault.at);

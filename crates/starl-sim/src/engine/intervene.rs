@@ -234,34 +234,22 @@ impl Simulation {
         if matches!(kind, FaultKind::CorruptState(_)) {
             self.corrupted = at;
         }
-        let robots = match kind {
-            FaultKind::Partition(groups) | FaultKind::OneWay(groups) => {
+        let Some(robots) = kind.robots() else {
+            self.shared.parts.clear();
+            if let FaultKind::Partition(groups) | FaultKind::OneWay(groups) = kind {
                 self.shared.one_way = matches!(kind, FaultKind::OneWay(_));
                 self.shared.parts = fault::parts(groups, self.shared.bodies.len());
-                return self.note(at, fault::event(kind));
             }
-            FaultKind::Heal => {
-                self.shared.parts.clear();
-                return self.note(at, fault::event(kind));
-            }
-            FaultKind::Crash(robots)
-            | FaultKind::Restart(robots)
-            | FaultKind::StuckMotor(robots)
-            | FaultKind::FrozenSensor(robots)
-            | FaultKind::Repair(robots)
-            | FaultKind::CorruptState(robots) => robots,
+            return self.note(at, fault::event(kind));
         };
         for &robot in robots {
             let seed = self.shared.scenario.seed;
             let shard = &mut self.shards[robot.index() / SIZE];
-            let member = &mut shard.members[robot.index() % SIZE];
-            if member.is_gone {
+            if shard.members[robot.index() % SIZE].is_gone {
                 continue;
             }
-            let event = fault::event(kind);
-            shard
-                .log
-                .record(&mut member.account.digest, robot, at, event);
+            shard.record(robot, at, fault::event(kind));
+            let member = &mut shard.members[robot.index() % SIZE];
             self.impaired -= usize::from(member.is_impaired());
             match kind {
                 FaultKind::Crash(_) => {
@@ -271,10 +259,7 @@ impl Simulation {
                         && stream(seed, Stream::Storage, &key).chance(loss);
                     member.crash(is_lost);
                     if is_lost {
-                        let event = Event::Fault(Fault::StorageLost);
-                        shard
-                            .log
-                            .record(&mut member.account.digest, robot, at, event);
+                        shard.record(robot, at, Event::Fault(Fault::StorageLost));
                     }
                 }
                 FaultKind::Restart(_) if member.node.condition().down => {
@@ -313,17 +298,14 @@ impl Simulation {
         let free = (1..=PARTS).take_while(is_free).last().unwrap_or(0);
         let place = body.position + by * (f64::from(free) / f64::from(PARTS));
         let shard = &mut self.shards[robot.index() / SIZE];
-        let state = &mut shard.states[robot.index() % SIZE];
-        let member = &mut shard.members[robot.index() % SIZE];
-        if member.is_gone {
+        if shard.members[robot.index() % SIZE].is_gone {
             return;
         }
+        let state = &mut shard.states[robot.index() % SIZE];
         state.pose.position = place;
         self.shared.bodies[robot.index()].position = place;
         let event = Event::Moved(state.pose);
-        shard
-            .log
-            .record(&mut member.account.digest, robot, at, event);
+        shard.record(robot, at, event);
     }
 
     /// Whether a body would touch nothing there, apart from `robot`'s own.
@@ -413,12 +395,8 @@ impl Simulation {
         self.next.push(pose.position);
         self.bodies.push(self.shared.bodies[robot.index()]);
         self.have_changed = true;
-        let state = *self.state(robot);
-        let shard = &mut self.shards[robot.index() / SIZE];
-        let digest = &mut shard.members[robot.index() % SIZE].account.digest;
-        shard
-            .log
-            .record(digest, robot, at, Event::Moved(state.pose));
+        let event = Event::Moved(self.state(robot).pose);
+        self.shards[robot.index() / SIZE].record(robot, at, event);
     }
 
     /// Robots leave permanently, recorded as crashes. Things that they hold stay where they were.
@@ -470,9 +448,7 @@ impl Simulation {
                 }
                 _ => continue,
             };
-            let shard = &mut self.shards[grip.robot.index() / SIZE];
-            let digest = &mut shard.members[grip.robot.index() % SIZE].account.digest;
-            shard.log.record(digest, grip.robot, grip.at, event);
+            self.shards[grip.robot.index() / SIZE].record(grip.robot, grip.at, event);
         }
     }
 

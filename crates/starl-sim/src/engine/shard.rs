@@ -93,6 +93,13 @@ impl Shard {
         self.earliest = self.due.iter().copied().min().unwrap_or(Time::NEVER);
     }
 
+    /// Records an event of one of the robots.
+    pub fn record(&mut self, robot: RobotId, at: Time, event: Event) {
+        let member = &mut self.members[(robot.0 - self.first) as usize];
+        let digest = &mut member.account.digest;
+        self.log.record(digest, robot, at, event);
+    }
+
     /// A datagram arrives at one of the robots.
     pub fn arrives(&mut self, robot: RobotId, at: Time) {
         let due = &mut self.due[(robot.0 - self.first) as usize];

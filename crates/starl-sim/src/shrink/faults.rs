@@ -2,8 +2,8 @@
 
 use super::Search;
 use crate::Scenario;
-use crate::scenario::{Fault, FaultKind};
-use starl_core::{RobotId, Time};
+use crate::scenario::Fault;
+use starl_core::Time;
 
 /// Takes faults of several robots apart, so that each can be left out. The run stays the same.
 pub(super) fn one_by_one(scenario: &mut Scenario) {
@@ -11,30 +11,18 @@ pub(super) fn one_by_one(scenario: &mut Scenario) {
     scenario.faults.schedule = schedule.into_iter().flat_map(apart).collect();
 }
 
-fn apart(Fault { at, kind }: Fault) -> Vec<Fault> {
-    let make: fn(Vec<RobotId>) -> FaultKind = match kind {
-        FaultKind::Crash(_) => FaultKind::Crash,
-        FaultKind::Restart(_) => FaultKind::Restart,
-        FaultKind::StuckMotor(_) => FaultKind::StuckMotor,
-        FaultKind::FrozenSensor(_) => FaultKind::FrozenSensor,
-        FaultKind::Repair(_) => FaultKind::Repair,
-        FaultKind::CorruptState(_) => FaultKind::CorruptState,
-        FaultKind::Partition(_) | FaultKind::OneWay(_) | FaultKind::Heal => {
-            return vec![Fault { at, kind }];
-        }
+fn apart(mut fault: Fault) -> Vec<Fault> {
+    let Some(robots) = fault.kind.robots_mut().map(std::mem::take) else {
+        return vec![fault];
     };
-    let (FaultKind::Crash(robots)
-    | FaultKind::Restart(robots)
-    | FaultKind::StuckMotor(robots)
-    | FaultKind::FrozenSensor(robots)
-    | FaultKind::Repair(robots)
-    | FaultKind::CorruptState(robots)) = kind
-    else {
-        return Vec::new();
-    };
-    let one = |robot| Fault {
-        at,
-        kind: make(vec![robot]),
+    let one = |robot| {
+        let mut fault = fault.clone();
+        fault
+            .kind
+            .robots_mut()
+            .into_iter()
+            .for_each(|robots| robots.push(robot));
+        fault
     };
     robots.into_iter().map(one).collect()
 }

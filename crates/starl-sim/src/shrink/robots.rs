@@ -53,25 +53,12 @@ fn renumbered(fault: &Fault, new: &dyn Fn(&[RobotId]) -> Vec<RobotId>) -> Option
         let parts = parts.iter().map(|part| new(part));
         parts.filter(|part| !part.is_empty()).collect()
     };
-    let kind = match &fault.kind {
-        FaultKind::Crash(robots) => FaultKind::Crash(new(robots)),
-        FaultKind::Restart(robots) => FaultKind::Restart(new(robots)),
-        FaultKind::StuckMotor(robots) => FaultKind::StuckMotor(new(robots)),
-        FaultKind::FrozenSensor(robots) => FaultKind::FrozenSensor(new(robots)),
-        FaultKind::Repair(robots) => FaultKind::Repair(new(robots)),
-        FaultKind::CorruptState(robots) => FaultKind::CorruptState(new(robots)),
-        FaultKind::Heal => FaultKind::Heal,
-        FaultKind::Partition(parts) => FaultKind::Partition(manned(parts)),
-        FaultKind::OneWay(parts) => FaultKind::OneWay(manned(parts)),
-    };
-    let is_nobodys = match &kind {
-        FaultKind::Heal | FaultKind::Partition(_) | FaultKind::OneWay(_) => false,
-        FaultKind::Crash(robots)
-        | FaultKind::Restart(robots)
-        | FaultKind::StuckMotor(robots)
-        | FaultKind::FrozenSensor(robots)
-        | FaultKind::Repair(robots)
-        | FaultKind::CorruptState(robots) => robots.is_empty(),
-    };
-    (!is_nobodys).then_some(Fault { at: fault.at, kind })
+    let mut fault = fault.clone();
+    if let FaultKind::Partition(parts) | FaultKind::OneWay(parts) = &mut fault.kind {
+        *parts = manned(parts);
+    } else if let Some(robots) = fault.kind.robots_mut() {
+        *robots = new(robots);
+    }
+    let is_nobodys = fault.kind.robots().is_some_and(<[_]>::is_empty);
+    (!is_nobodys).then_some(fault)
 }

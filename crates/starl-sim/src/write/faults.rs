@@ -20,7 +20,7 @@ fn fault(fault: &Fault, fleet: &Fleet) -> String {
     let Fault { at, kind } = fault;
     let mut table = Table::element("fault");
     table.set("at", time(Duration(at.0)));
-    if kind_of(kind).1.is_some_and(<[RobotId]>::is_empty) {
+    if kind.robots().is_some_and(<[RobotId]>::is_empty) {
         // A fault without robots has no effect.
         return String::new();
     }
@@ -28,26 +28,25 @@ fn fault(fault: &Fault, fleet: &Fleet) -> String {
     table.finish_element()
 }
 
-/// The word for a kind of fault, and the robots that it concerns.
-fn kind_of(kind: &FaultKind) -> (&'static str, Option<&[RobotId]>) {
+/// The word for a kind of fault.
+fn word(kind: &FaultKind) -> &'static str {
     match kind {
-        FaultKind::Crash(robots) => ("crash", Some(robots)),
-        FaultKind::Restart(robots) => ("restart", Some(robots)),
-        FaultKind::StuckMotor(robots) => ("stuck_motor", Some(robots)),
-        FaultKind::FrozenSensor(robots) => ("frozen_sensor", Some(robots)),
-        FaultKind::Repair(robots) => ("repair", Some(robots)),
-        FaultKind::CorruptState(robots) => ("corrupt_state", Some(robots)),
-        FaultKind::Partition(_) => ("partition", None),
-        FaultKind::OneWay(_) => ("one_way", None),
-        FaultKind::Heal => ("heal", None),
+        FaultKind::Crash(_) => "crash",
+        FaultKind::Restart(_) => "restart",
+        FaultKind::StuckMotor(_) => "stuck_motor",
+        FaultKind::FrozenSensor(_) => "frozen_sensor",
+        FaultKind::Repair(_) => "repair",
+        FaultKind::CorruptState(_) => "corrupt_state",
+        FaultKind::Partition(_) => "partition",
+        FaultKind::OneWay(_) => "one_way",
+        FaultKind::Heal => "heal",
     }
 }
 
 /// The fields of a fault.
 pub(super) fn set_kind(table: &mut Table, kind: &FaultKind, names: impl Fn(&[RobotId]) -> String) {
-    let (word, robots) = kind_of(kind);
-    table.set("kind", text(word));
-    if let Some(robots) = robots {
+    table.set("kind", text(word(kind)));
+    if let Some(robots) = kind.robots() {
         table.set("robots", names(robots));
     }
     if let FaultKind::Partition(groups) | FaultKind::OneWay(groups) = kind {
