@@ -225,7 +225,7 @@ fn datagram(transmission: &Transmission) -> NodeInput {
 }
 
 /// The robot's current knowledge; without readings it has only that of its bumper.
-fn snapshot<'a>(
+pub fn snapshot<'a>(
     shared: &'a Shared,
     kind: &'a Kind,
     senses: &'a Senses,

@@ -1,8 +1,9 @@
 //! Looks into a running simulation without changing it.
 
 use super::Simulation;
+use super::act::snapshot;
 use super::shard::SIZE;
-use starl_core::{Obstacle, Port, Program, Robot, RobotId, Sensors, Time, View};
+use starl_core::{Obstacle, Port, Program, Robot, RobotId, Time, View};
 use starl_motion::sensing::Readings;
 
 /// A datagram on its way to a robot.
@@ -90,9 +91,7 @@ impl Simulation {
         let (node, senses) = (&member.node, &member.senses);
         let kind = &shared.kinds[member.group as usize];
         let mut readings = Readings::default();
-        let mut bumper = senses.contact.filter(|_| kind.sensors.bumper);
         if let Some(frozen) = &senses.frozen {
-            bumper = frozen.bumper;
             readings.proximity.clone_from(&frozen.proximity);
             readings.detections.clone_from(&frozen.detections);
         } else if kind.sensors.proximity.is_some() || kind.sensors.detector.is_some() {
@@ -103,24 +102,16 @@ impl Simulation {
             let (scene, things) = (shared.scene(), shared.things.lying());
             readings.read(&kind.sensors, &scene, things, robot, pose.yaw);
         }
+        let snapshot = snapshot(shared, kind, senses, Some(&readings));
         let view = View {
             id: robot,
             now: node.clock().read(self.now),
             estimate: *node.estimate(),
-            body: kind.hardware.body,
-            sensors: Sensors {
-                bumper,
-                proximity: &readings.proximity,
-                detections: &readings.detections,
-                holding: senses.holding,
-                thing_names: &shared.things.names,
-            },
-            fleet: &shared.fleet,
-            way_points: &shared.way_points,
-            obstacles: match &senses.knowledge {
-                Some(knowledge) => &knowledge.obstacles,
-                None => &shared.known,
-            },
+            body: snapshot.hardware.body,
+            sensors: snapshot.sensors,
+            fleet: snapshot.fleet,
+            way_points: snapshot.way_points,
+            obstacles: snapshot.obstacles,
         };
         node.agent().rehearse(&view, run)
     }

@@ -23,10 +23,8 @@ impl<'a> Section<'a> {
             .into_iter()
             .filter_map(|(node, path)| match value::text(node) {
                 Ok(text) => Some((text, node.origin, path)),
-                Err((message, help)) => {
-                    let help = help.unwrap_or_default();
-                    self.report
-                        .problem_with_help(node.origin, &path, message, help);
+                Err(complaint) => {
+                    self.report.complain(node.origin, &path, complaint);
                     None
                 }
             })
@@ -133,11 +131,7 @@ impl<'a> Section<'a> {
         for (node, path) in self.list(name) {
             match value::point(node, Dimension::Length, false) {
                 Ok((point, _)) => points.push(point),
-                Err((message, help)) => {
-                    let help = help.unwrap_or_default();
-                    self.report
-                        .problem_with_help(node.origin, &path, message, help);
-                }
+                Err(complaint) => self.report.complain(node.origin, &path, complaint),
             }
         }
         points

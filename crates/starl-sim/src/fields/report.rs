@@ -84,6 +84,11 @@ impl Report {
         self.push(origin, field, message.to_string(), Some(help.to_string()));
     }
 
+    /// Adds a problem that a parser has found, with its suggested fix if it has one.
+    pub fn complain(&self, origin: Origin, field: &str, (message, help): (String, Option<String>)) {
+        self.push(origin, field, message, help);
+    }
+
     fn push(&self, origin: Origin, field: &str, message: String, help: Option<String>) {
         let place = self.place(origin);
         let problem = Problem {

@@ -139,12 +139,9 @@ impl<'a> Section<'a> {
         self.complain(self.origin_of(name), name, complaint);
     }
 
-    fn complain(&self, origin: Origin, name: &str, (message, help): Complaint) {
-        let field = self.path.join(name);
-        match help {
-            Some(help) => self.report.problem_with_help(origin, &field, message, help),
-            None => self.report.problem(origin, &field, message),
-        }
+    fn complain(&self, origin: Origin, name: &str, complaint: Complaint) {
+        self.report
+            .complain(origin, &self.path.join(name), complaint);
     }
 
     /// Reads a field; reports it if it does not do, or is left out though required.

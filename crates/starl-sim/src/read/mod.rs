@@ -204,3 +204,23 @@ struct Placed<T> {
     origin: Origin,
     field: String,
 }
+
+impl<T> Placed<T> {
+    /// A value of a world file, which has no fields.
+    fn in_file(origin: Origin, value: T) -> Placed<T> {
+        Placed {
+            value,
+            origin,
+            field: String::new(),
+        }
+    }
+
+    /// A value that was written in this field.
+    fn at(table: Section<'_>, field: &str, value: T) -> Placed<T> {
+        Placed {
+            value,
+            origin: table.origin_of(field),
+            field: table.path_of(field),
+        }
+    }
+}

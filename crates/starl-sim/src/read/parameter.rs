@@ -104,12 +104,7 @@ pub(super) fn model(table: Section<'_>, name: &str) -> Option<Arc<dyn Model>> {
             });
             match setting {
                 Ok(number) => settings.push((parameter.clone(), number)),
-                Err((message, help)) => {
-                    let help = help.unwrap_or_default();
-                    table
-                        .report
-                        .problem_with_help(entry.node.origin, &path, message, help);
-                }
+                Err(complaint) => table.report.complain(entry.node.origin, &path, complaint),
             }
         }
     }

@@ -127,25 +127,13 @@ fn surroundings(contents: &Contents, drafts: &[Draft]) -> Bounds {
     let given = drafts
         .iter()
         .flat_map(|draft| &draft.starts)
-        .map(|start| around(start.value.position, 1.0));
+        .map(|start| Bounds::around(start.value.position, 1.0));
     contents
         .surroundings()
         .into_iter()
         .chain(given)
-        .reduce(|a, b| Bounds {
-            low: Point::planar(a.low.x.min(b.low.x), a.low.y.min(b.low.y)),
-            high: Point::planar(a.high.x.max(b.high.x), a.high.y.max(b.high.y)),
-        })
-        .unwrap_or_else(|| around(Point::ZERO, room(drafts).max(1.0)))
-}
-
-/// The square around a point whose sides are this far away, metres.
-fn around(point: Point, distance: f64) -> Bounds {
-    let corner = Point::planar(distance, distance);
-    Bounds {
-        low: point - corner,
-        high: point + corner,
-    }
+        .reduce(Bounds::joined)
+        .unwrap_or_else(|| Bounds::around(Point::ZERO, room(drafts).max(1.0)))
 }
 
 /// Half the side of a square in which all robots have room: each has a square twice as wide as itself and its distance

@@ -52,10 +52,7 @@ impl<'a> Placing<'a> {
         let spacing = manned().map(|draft| draft.spacing).fold(0.0, f64::max);
         let count: usize = drafts.iter().map(|draft| draft.count).sum();
         let areas = manned().filter_map(|draft| draft.area.as_ref().map(|area| area.value));
-        let whole = areas.fold(fallback, |a, b| Bounds {
-            low: Point::planar(a.low.x.min(b.low.x), a.low.y.min(b.low.y)),
-            high: Point::planar(a.high.x.max(b.high.x), a.high.y.max(b.high.y)),
-        });
+        let whole = areas.fold(fallback, Bounds::joined);
         Placing {
             obstacles: ObstacleIndex::new(&obstacles),
             bounds: contents.bounds.as_ref().map(|bounds| bounds.value),

@@ -94,17 +94,13 @@ impl FreeSpace {
             .iter()
             .map(|place| place.value.position)
             .chain(starts);
-        let corners = index
-            .bounds()
-            .iter()
-            .map(|bounds| (bounds.low, bounds.high));
-        let (low, high) = points.map(|point| (point, point)).chain(corners).fold(
-            (Point::ZERO, Point::ZERO),
-            |(low, high), (a, b)| {
-                let low = Point::planar(low.x.min(a.x), low.y.min(a.y));
-                (low, Point::planar(high.x.max(b.x), high.y.max(b.y)))
-            },
-        );
+        let points = points.map(|point| Bounds::around(point, 0.0));
+        let boxes = index.bounds().iter().map(|bounds| Bounds {
+            low: bounds.low,
+            high: bounds.high,
+        });
+        let origin = Bounds::around(Point::ZERO, 0.0);
+        let Bounds { low, high } = points.chain(boxes).fold(origin, Bounds::joined);
         // Room to go round everything.
         let margin = Point::planar(1.0, 1.0) * (3.0 * body.radius + vicinity);
         let (low, high) = (low - margin, high + margin);

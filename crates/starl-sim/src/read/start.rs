@@ -9,12 +9,11 @@ use starl_core::Pose;
 pub(super) fn read(table: Section<'_>) -> Option<Placed<Pose>> {
     let heading = table.number("heading");
     let (position, _) = table.point("position")?;
-    let (origin, field) = (table.origin_of("position"), table.path_of("position"));
-    Some(Placed {
-        value: Pose::level(position, heading),
-        origin,
-        field,
-    })
+    Some(Placed::at(
+        table,
+        "position",
+        Pose::level(position, heading),
+    ))
 }
 
 /// A rectangle of the floor plane, such as `world.bounds`.

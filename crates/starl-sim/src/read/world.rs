@@ -49,11 +49,7 @@ fn way_point(table: Section<'_>) -> Option<Placed<WayPoint>> {
         position: position?.0,
         group,
     };
-    Some(Placed {
-        value,
-        origin: table.origin_of("position"),
-        field: table.path_of("position"),
-    })
+    Some(Placed::at(table, "position", value))
 }
 
 fn thing(table: Section<'_>) -> Option<Placed<Thing>> {
@@ -62,11 +58,7 @@ fn thing(table: Section<'_>) -> Option<Placed<Thing>> {
         name: name?,
         position: position?.0,
     };
-    Some(Placed {
-        value,
-        origin: table.origin_of("position"),
-        field: table.path_of("position"),
-    })
+    Some(Placed::at(table, "position", value))
 }
 
 impl Bounds {
@@ -77,40 +69,10 @@ impl Bounds {
 
 impl Contents {
     fn check(&self, report: &Report) {
-        let way_points = self.way_points.iter().map(|placed| {
-            (
-                placed.value.name.as_str(),
-                placed.value.position,
-                placed.origin,
-                &placed.field,
-            )
+        self.check_named("waypoint", &self.way_points, report, |w| {
+            (&w.name, w.position)
         });
-        let things = self.things.iter().map(|placed| {
-            (
-                placed.value.name.as_str(),
-                placed.value.position,
-                placed.origin,
-                &placed.field,
-            )
-        });
-        for (kind, list) in [
-            ("waypoint", way_points.collect::<Vec<_>>()),
-            ("thing", things.collect()),
-        ] {
-            let mut known = BTreeMap::new();
-            for (name, position, origin, field) in list {
-                if let Some(other) = known.insert(name, origin) {
-                    let message = format!("there are two {kind}s called {name}");
-                    let help = format!("rename one; the other is at {}", report.place(other));
-                    report.problem_with_help(origin, field, message, help);
-                }
-                let within = |bounds: &Placed<Bounds>| bounds.value.contains_planar(position);
-                if !self.bounds.as_ref().is_none_or(within) {
-                    let message = format!("the {kind} {name} is outside the bounds of the world");
-                    report.problem_with_help(origin, field, message, "move it, or the bounds");
-                }
-            }
-        }
+        self.check_named("thing", &self.things, report, |t| (&t.name, t.position));
         let mut known = BTreeMap::new();
         for Placed {
             value: (name, _),
@@ -133,20 +95,47 @@ impl Contents {
         }
     }
 
+    /// Refuses two of a kind with one name, and any outside the bounds.
+    fn check_named<T>(
+        &self,
+        kind: &str,
+        all: &[Placed<T>],
+        report: &Report,
+        named: impl Fn(&T) -> (&str, Point),
+    ) {
+        let mut known = BTreeMap::new();
+        for Placed {
+            value,
+            origin,
+            field,
+        } in all
+        {
+            let (name, position) = named(value);
+            if let Some(other) = known.insert(name, *origin) {
+                let message = format!("there are two {kind}s called {name}");
+                let help = format!("rename one; the other is at {}", report.place(other));
+                report.problem_with_help(*origin, field, message, help);
+            }
+            let within = |bounds: &Placed<Bounds>| bounds.value.contains_planar(position);
+            if !self.bounds.as_ref().is_none_or(within) {
+                let message = format!("the {kind} {name} is outside the bounds of the world");
+                report.problem_with_help(*origin, field, message, "move it, or the bounds");
+            }
+        }
+    }
+
     /// Everything in the world and 1 m around it; none if there is nothing.
     pub fn surroundings(&self) -> Option<Bounds> {
         let points = (self.way_points.iter().map(|placed| placed.value.position))
             .chain(self.things.iter().map(|placed| placed.value.position))
             .chain(self.starts.iter().map(|placed| placed.value.1.position))
-            .map(|point| (point, point));
+            .map(|point| Bounds::around(point, 0.0));
         let boxes = self.obstacles.iter().map(|obstacle| {
             let bounds = obstacle.obstacle.bounds();
-            (bounds.low, bounds.high)
+            let (low, high) = (bounds.low, bounds.high);
+            Bounds { low, high }
         });
-        let (low, high) = points.chain(boxes).reduce(|(low, high), (a, b)| {
-            let low = Point::planar(low.x.min(a.x), low.y.min(a.y));
-            (low, Point::planar(high.x.max(b.x), high.y.max(b.y)))
-        })?;
+        let Bounds { low, high } = points.chain(boxes).reduce(Bounds::joined)?;
         let around = Point::planar(1.0, 1.0);
         Some(Bounds {
             low: (low - around).at_height(0.0),

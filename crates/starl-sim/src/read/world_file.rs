@@ -185,7 +185,7 @@ impl File<'_> {
         }
         let (position, name) = (self.point(&words[1..4]), self.name(words[4]));
         let (position, name) = (position?, name?);
-        let (origin, field) = (words[1].origin, String::new());
+        let origin = words[1].origin;
         if self.names.is_robot(&name) {
             let degrees = match words.get(5) {
                 Some(word) => self.number(*word, "the heading in degrees")?,
@@ -193,11 +193,7 @@ impl File<'_> {
             };
             let heading = math::wrap_angle(math::radians(degrees));
             let value = (name, Pose::level(position, heading));
-            self.contents.starts.push(Placed {
-                value,
-                origin,
-                field,
-            });
+            self.contents.starts.push(Placed::in_file(origin, value));
             return Some(());
         }
         let group = match words.get(5).map(|word| word.text.parse::<u32>()) {
@@ -222,11 +218,9 @@ impl File<'_> {
                 group,
             },
         };
-        self.contents.way_points.push(Placed {
-            value,
-            origin,
-            field,
-        });
+        self.contents
+            .way_points
+            .push(Placed::in_file(origin, value));
         Some(())
     }
 
@@ -240,12 +234,8 @@ impl File<'_> {
             name: name?,
             position: position?,
         };
-        let (origin, field) = (words[1].origin, String::new());
-        self.contents.things.push(Placed {
-            value,
-            origin,
-            field,
-        });
+        let placed = Placed::in_file(words[1].origin, value);
+        self.contents.things.push(placed);
         Some(())
     }
 

@@ -39,6 +39,24 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// The square around a point whose sides are this far away, metres.
+    pub(crate) fn around(point: Point, distance: f64) -> Bounds {
+        let corner = Point::planar(distance, distance);
+        Bounds {
+            low: point - corner,
+            high: point + corner,
+        }
+    }
+
+    /// The least rectangle around both.
+    pub(crate) fn joined(self, other: Bounds) -> Bounds {
+        let (a, b) = (self, other);
+        Bounds {
+            low: Point::planar(a.low.x.min(b.low.x), a.low.y.min(b.low.y)),
+            high: Point::planar(a.high.x.max(b.high.x), a.high.y.max(b.high.y)),
+        }
+    }
+
     /// The four walls, from the lowest y on, counter-clockwise.
     pub fn walls(&self) -> Vec<Obstacle> {
         let Bounds { low, high } = *self;

@@ -95,15 +95,12 @@ pub(super) fn next_group(contents: &Contents) -> u32 {
 fn add(points: impl Iterator<Item = Point>, origin: Origin, contents: &mut Contents) {
     let group = next_group(contents);
     for (index, position) in points.enumerate() {
-        contents.way_points.push(Placed {
-            value: WayPoint {
-                name: format!("stroke{group}.{index}"),
-                position,
-                group,
-            },
-            origin,
-            field: String::new(),
-        });
+        let way_point = WayPoint {
+            name: format!("stroke{group}.{index}"),
+            position,
+            group,
+        };
+        contents.way_points.push(Placed::in_file(origin, way_point));
     }
 }
 
