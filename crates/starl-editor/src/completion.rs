@@ -11,9 +11,9 @@ mod members;
 
 use candidates::Candidates;
 use context::Context;
-use starl_lang::check::{Checked, Libraries, Surroundings, Symbol, surroundings};
+use starl_lang::check::{Checked, Libraries, Symbol, surroundings};
 use starl_lang::diagnostic::Span;
-use starl_lang::syntax::{SyntaxKind, SyntaxToken, parse};
+use starl_lang::syntax::{SyntaxKind, parse};
 use std::collections::BTreeSet;
 
 pub use kind::CompletionKind;
@@ -168,32 +168,4 @@ fn is_inert(text: &str, offset: u32) -> bool {
         SyntaxKind::StringLiteral => span.start < offset && offset < span.end,
         kind => kind.is_number() && span.start < offset,
     }
-}
-
-/// Whether only white space stands before the token in its line.
-fn begins_line(token: &SyntaxToken) -> bool {
-    let mut before = token.prev_token();
-    while let Some(found) = before {
-        match found.kind() {
-            SyntaxKind::Newline | SyntaxKind::LineBreak => return true,
-            SyntaxKind::Whitespace | SyntaxKind::Indent | SyntaxKind::Dedent => {}
-            _ => return found.text().ends_with('\n'),
-        }
-        before = found.prev_token();
-    }
-    true
-}
-
-/// The context if the checker did not reach the probe: some value.
-fn anything() -> Surroundings {
-    Surroundings::Value(starl_lang::check::Reach {
-        locals: Vec::new(),
-        expected: None,
-        purity: starl_lang::check::Purity::Effect,
-        sees_state: true,
-        sees_parameters: true,
-        sees_primitives: true,
-        in_property: false,
-        parameters: Vec::new(),
-    })
 }

@@ -230,7 +230,7 @@ fn with_range(checked: &Checked, text: String, site: Site) -> String {
     }
 }
 
-/// The declaration with its value as it is written, if there is one and it is short.
+/// The description of a declaration, with its value as it is written, if there is one and it is short.
 fn with_value(checked: &Checked, text: String, site: Site, documentation: &str) -> Description {
     let value = part::<ast::Expression>(checked, site);
     let value = value.map(|value| written(checked, site.file, &value));

@@ -1,7 +1,6 @@
 //! The keywords allowed at a position, and the checker's knowledge of it.
 
-use super::{anything, begins_line};
-use starl_lang::check::Surroundings;
+use starl_lang::check::{Purity, Reach, Surroundings};
 use starl_lang::syntax::{SyntaxKind, SyntaxNode, SyntaxToken};
 
 /// Where a word is typed.
@@ -123,4 +122,32 @@ fn follows_action(probe: &SyntaxToken) -> bool {
         last = found.prev_token();
     }
     false
+}
+
+/// Whether only white space stands before the token in its line.
+fn begins_line(token: &SyntaxToken) -> bool {
+    let mut before = token.prev_token();
+    while let Some(found) = before {
+        match found.kind() {
+            SyntaxKind::Newline | SyntaxKind::LineBreak => return true,
+            SyntaxKind::Whitespace | SyntaxKind::Indent | SyntaxKind::Dedent => {}
+            _ => return found.text().ends_with('\n'),
+        }
+        before = found.prev_token();
+    }
+    true
+}
+
+/// The context if the checker did not reach the probe: some value.
+fn anything() -> Surroundings {
+    Surroundings::Value(Reach {
+        locals: Vec::new(),
+        expected: None,
+        purity: Purity::Effect,
+        sees_state: true,
+        sees_parameters: true,
+        sees_primitives: true,
+        in_property: false,
+        parameters: Vec::new(),
+    })
 }
