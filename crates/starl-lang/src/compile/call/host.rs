@@ -1,7 +1,7 @@
 //! Calls of the host.
 
 use alloc::boxed::Box;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::compile::body::{Body, Slot};
@@ -11,7 +11,9 @@ use crate::ir::{Expression, Type};
 use crate::machine;
 use crate::machine::operand::ImportIndex;
 use crate::machine::{Import, Instruction};
-use alloc::string::ToString;
+
+/// Arguments by parameters; none for one that is omitted.
+pub(in crate::compile) type Arguments<'p> = &'p [Option<Expression>];
 
 /// An argument of a call of the host.
 pub(in crate::compile) enum Argument<'p> {
@@ -70,23 +72,19 @@ impl<'p> Body<'_, 'p> {
             Type::Nothing => Vec::new(),
             _ => Vec::from([self.machine_type(result)?]),
         };
-        let import = self.unit.import(Import {
+        let import = Import {
             name: import.name,
             query: import.is_query,
             labels: import.labels,
             arguments: kinds,
             results,
-        });
+        };
         // The window has to have room for the results too.
         let mark = self.mark();
         self.release(Size::new(window.base.scalar, window.base.object));
         self.take(size)?;
         self.release(mark);
-        self.emit(Instruction::CallHost {
-            scalars: window.base.block(),
-            objects: window.base.objects(),
-            import: ImportIndex(import),
-        });
+        self.call_host(import, window.base);
         self.close(&window, to, size)
     }
 
@@ -128,6 +126,16 @@ impl<'p> Body<'_, 'p> {
                 self.machine_type(&optional)
             }
         }
+    }
+
+    /// Calls a function of the host whose arguments are in these registers.
+    pub fn call_host(&mut self, import: Import, window: Slot) {
+        let import = ImportIndex(self.unit.import(import));
+        self.emit(Instruction::CallHost {
+            scalars: window.block(),
+            objects: window.objects(),
+            import,
+        });
     }
 
     /// Calls a function of the host that returns nothing.

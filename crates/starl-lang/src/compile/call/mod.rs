@@ -7,7 +7,7 @@ mod host;
 mod primitive;
 mod shared;
 
-pub(in crate::compile) use host::{Argument, HostFunction};
+pub(in crate::compile) use host::{Argument, Arguments, HostFunction};
 pub(in crate::compile) use shared::shared_kind;
 
 use crate::compile::body::{Body, Slot};

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use crate::check::{Member, Purity, Shape, Signature};
 use crate::compile::body::{Body, Slot};
-use crate::compile::call::{Argument, HostFunction};
+use crate::compile::call::{Argument, Arguments, HostFunction};
 use crate::compile::problem::Compiled;
 use crate::ir;
 use crate::ir::{BindingId, Expression, Type};
@@ -21,7 +21,7 @@ impl<'p> Body<'_, 'p> {
         &mut self,
         binding: BindingId,
         member: &'static Member,
-        arguments: &'p [Option<Expression>],
+        arguments: Arguments<'p>,
         to: Slot,
         ty: &Type,
         is_fresh: bool,
@@ -54,7 +54,7 @@ impl<'p> Body<'_, 'p> {
     pub fn arguments(
         &self,
         signature: &Signature,
-        values: &'p [Option<Expression>],
+        values: Arguments<'p>,
     ) -> Compiled<Vec<Argument<'p>>> {
         let parameters = signature.parameters.iter().enumerate();
         let arguments = parameters.map(|(index, parameter)| {

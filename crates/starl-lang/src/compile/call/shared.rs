@@ -9,7 +9,6 @@ use crate::compile::call::{Argument, HostFunction};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::{Consistency, Expression, SharedId, Type};
-use crate::machine::operand::ImportIndex;
 use crate::machine::{Import, Instruction};
 use crate::{ir, machine};
 
@@ -156,18 +155,14 @@ impl<'p> Body<'_, 'p> {
         self.scalar(first, u64::from(instance));
         self.copy(first.at(Size::SCALAR), value, size);
         let kind = self.machine_type(ty)?;
-        let import = self.unit.import(Import {
+        let import = Import {
             name: import.name,
             query: false,
             labels: Vec::new(),
             arguments: Vec::from([machine::Type::Int, kind]),
             results: Vec::new(),
-        });
-        self.emit(Instruction::CallHost {
-            scalars: first.block(),
-            objects: first.objects(),
-            import: ImportIndex(import),
-        });
+        };
+        self.call_host(import, first);
         self.release(mark);
         Ok(())
     }

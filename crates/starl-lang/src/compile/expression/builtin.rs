@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use crate::check::{Builtin, Purity};
 use crate::compile::body::{Body, Slot};
-use crate::compile::call::{Argument, HostFunction};
+use crate::compile::call::{Argument, Arguments, HostFunction};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::{Expression, Type};
@@ -21,7 +21,7 @@ impl<'p> Body<'_, 'p> {
         &mut self,
         expression: &'p Expression,
         builtin: Builtin,
-        arguments: &'p [Option<Expression>],
+        arguments: Arguments<'p>,
         rest: &'p Rest,
         to: Slot,
         is_fresh: bool,
@@ -69,11 +69,7 @@ impl<'p> Body<'_, 'p> {
     }
 
     /// An argument that is always there.
-    pub fn given(
-        &self,
-        arguments: &'p [Option<Expression>],
-        index: usize,
-    ) -> Compiled<&'p Expression> {
+    pub fn given(&self, arguments: Arguments<'p>, index: usize) -> Compiled<&'p Expression> {
         let argument = arguments.get(index).and_then(Option::as_ref);
         argument.ok_or_else(|| self.broken())
     }
@@ -82,7 +78,7 @@ impl<'p> Body<'_, 'p> {
     fn robot(
         &mut self,
         builtin: Builtin,
-        arguments: &'p [Option<Expression>],
+        arguments: Arguments<'p>,
         rest: &'p Rest,
         ty: &Type,
         to: Slot,
@@ -101,24 +97,14 @@ impl<'p> Body<'_, 'p> {
         self.host(import, &values, ty, to, is_fresh)
     }
 
-    fn unary(
-        &mut self,
-        arguments: &'p [Option<Expression>],
-        function: Unary,
-        to: Slot,
-    ) -> Compiled {
+    fn unary(&mut self, arguments: Arguments<'p>, function: Unary, to: Slot) -> Compiled {
         let from = self.value(self.given(arguments, 0)?)?.input();
         let to = to.output();
         self.emit(Instruction::Unary { to, from, function });
         Ok(())
     }
 
-    fn binary(
-        &mut self,
-        arguments: &'p [Option<Expression>],
-        function: Binary,
-        to: Slot,
-    ) -> Compiled {
+    fn binary(&mut self, arguments: Arguments<'p>, function: Binary, to: Slot) -> Compiled {
         let left = self.value(self.given(arguments, 0)?)?.input();
         let right = self.value(self.given(arguments, 1)?)?.input();
         self.emit(Instruction::Binary {
@@ -130,12 +116,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    fn rounded(
-        &mut self,
-        arguments: &'p [Option<Expression>],
-        rounding: Rounding,
-        to: Slot,
-    ) -> Compiled {
+    fn rounded(&mut self, arguments: Arguments<'p>, rounding: Rounding, to: Slot) -> Compiled {
         let from = self.value(self.given(arguments, 0)?)?.input();
         self.emit(Instruction::IntOfFloat {
             to: to.output(),
@@ -145,12 +126,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    fn extreme(
-        &mut self,
-        builtin: Builtin,
-        arguments: &'p [Option<Expression>],
-        to: Slot,
-    ) -> Compiled {
+    fn extreme(&mut self, builtin: Builtin, arguments: Arguments<'p>, to: Slot) -> Compiled {
         let first = self.given(arguments, 0)?;
         if let Type::Record(_) = first.ty {
             return self.extreme_tuple(builtin, arguments, to);
@@ -182,16 +158,9 @@ impl<'p> Body<'_, 'p> {
         }
         Ok(())
     }
-}
 
-impl<'p> Body<'_, 'p> {
     /// `min`, `max` or `clamp` of tuples.
-    fn extreme_tuple(
-        &mut self,
-        builtin: Builtin,
-        arguments: &'p [Option<Expression>],
-        to: Slot,
-    ) -> Compiled {
+    fn extreme_tuple(&mut self, builtin: Builtin, arguments: Arguments<'p>, to: Slot) -> Compiled {
         let first = self.given(arguments, 0)?;
         let (parts, size) = (self.parts(&first.ty)?, self.size(&first.ty));
         let best = self.take(size)?;
@@ -215,6 +184,34 @@ impl<'p> Body<'_, 'p> {
         self.move_value(to, best, size);
         Ok(())
     }
+
+    /// A random element of a list.
+    fn choose(&mut self, list: &'p Expression, ty: &Type, to: Slot) -> Compiled {
+        let from = self.object(list)?;
+        let size = self.object_size(from)?;
+        self.element_or_none(from, size, &list.ty, ty, to, |body, index| {
+            let first = body.take(Size::new(2, 0))?;
+            body.scalar(first, 0);
+            body.copy(first.at(Size::SCALAR), size, Size::SCALAR);
+            body.random_int(first)?;
+            body.copy(index, first, Size::SCALAR);
+            Ok(())
+        })
+    }
+
+    /// Replaces the two Ints in a row by a random one from the first to before the second.
+    fn random_int(&mut self, bounds: Slot) -> Compiled {
+        use crate::machine::{Import, Type};
+        let import = Import {
+            name: Builtin::RandomInt.name().into(),
+            query: false,
+            labels: Vec::new(),
+            arguments: Vec::from([Type::Int, Type::Int]),
+            results: Vec::from([Type::Int]),
+        };
+        self.call_host(import, bounds);
+        Ok(())
+    }
 }
 
 fn lesser_or_greater(
@@ -229,46 +226,5 @@ fn lesser_or_greater(
         (true, false) => Instruction::MinimumFloat { to, left, right },
         (false, true) => Instruction::MaximumInt { to, left, right },
         (false, false) => Instruction::MinimumInt { to, left, right },
-    }
-}
-
-impl<'p> Body<'_, 'p> {
-    /// A random element of a list.
-    fn choose(&mut self, list: &'p Expression, ty: &Type, to: Slot) -> Compiled {
-        let from = self.object(list)?;
-        let size = self.take(Size::SCALAR)?;
-        self.emit(Instruction::Size {
-            to: size.output(),
-            from,
-        });
-        self.element_or_none(from, size, &list.ty, ty, to, |body, index| {
-            let first = body.take(Size::new(2, 0))?;
-            body.scalar(first, 0);
-            body.copy(first.at(Size::SCALAR), size, Size::SCALAR);
-            body.random_int(first)?;
-            body.copy(index, first, Size::SCALAR);
-            Ok(())
-        })
-    }
-}
-
-impl Body<'_, '_> {
-    /// Replaces the two Ints in a row by a random one from the first to before the second.
-    fn random_int(&mut self, bounds: Slot) -> Compiled {
-        use crate::machine::operand::ImportIndex;
-        use crate::machine::{Import, Type};
-        let import = self.unit.import(Import {
-            name: Builtin::RandomInt.name().into(),
-            query: false,
-            labels: Vec::new(),
-            arguments: Vec::from([Type::Int, Type::Int]),
-            results: Vec::from([Type::Int]),
-        });
-        self.emit(Instruction::CallHost {
-            scalars: bounds.block(),
-            objects: bounds.objects(),
-            import: ImportIndex(import),
-        });
-        Ok(())
     }
 }

@@ -5,7 +5,6 @@ use crate::compile::expression::is_located;
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::Expression;
-use crate::machine::Instruction;
 
 impl<'p> Body<'_, 'p> {
     pub fn conditional(
@@ -44,17 +43,11 @@ impl<'p> Body<'_, 'p> {
             && let Some(location) = self.locate(optional)?
         {
             let present = self.scalar_at(location)?;
-            self.emit(Instruction::JumpUnless {
-                condition: present.input(),
-                target: no.target(),
-            });
+            self.jump_on(present, false, no);
             self.load(to, location.at(skipped), &default.ty);
         } else {
             let value = self.value(optional)?;
-            self.emit(Instruction::JumpUnless {
-                condition: value.input(),
-                target: no.target(),
-            });
+            self.jump_on(value, false, no);
             self.move_value(to, value.at(skipped), size);
         }
         self.release(mark);

@@ -4,7 +4,8 @@ use crate::compile::body::{Body, Slot};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::{Comprehension, Element, Expression, Type};
-use crate::machine::Instruction;
+use crate::machine::operand::ObjectInOut;
+use crate::machine::{Instruction, operand};
 
 impl<'p> Body<'_, 'p> {
     pub fn clear(&mut self, to: Slot, ty: &Type) -> Compiled {
@@ -16,17 +17,12 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// `[a, b]`
+    /// `[a, b]` or `{a, b}`
     pub fn list(&mut self, elements: &'p [Expression], ty: &'p Type, to: Slot) -> Compiled {
         self.clear(to, ty)?;
         elements
             .iter()
             .try_for_each(|element| self.add(to, ty, element))
-    }
-
-    /// `{a, b}`
-    pub fn set(&mut self, elements: &'p [Expression], ty: &'p Type, to: Slot) -> Compiled {
-        self.list(elements, ty, to)
     }
 
     /// `{k: v}`
@@ -69,14 +65,19 @@ impl<'p> Body<'_, 'p> {
         let mark = self.mark();
         let entry = self.row(&[key, value])?;
         let kind = self.object_type(ty)?;
+        self.map_put(to.object_in_out(), entry, kind);
+        self.release(mark);
+        Ok(())
+    }
+
+    /// Puts an entry, a key and its value in registers, into a map.
+    pub fn map_put(&mut self, map: ObjectInOut, entry: Slot, kind: operand::Type) {
         self.emit(Instruction::MapPut {
-            map: to.object_in_out(),
+            map,
             scalars: entry.block(),
             objects: entry.objects(),
             kind,
         });
-        self.release(mark);
-        Ok(())
     }
 
     /// `[f(x) for x in xs if c by k]`

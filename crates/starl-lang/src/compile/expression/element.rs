@@ -5,20 +5,35 @@ use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::{Expression, Type};
 use crate::machine::Instruction;
-use crate::machine::operand::{ObjectIn, Short};
+use crate::machine::operand::{In, ObjectIn, Short};
 
 impl<'p> Body<'_, 'p> {
     /// `list[index]`
     pub fn index(&mut self, base: &'p Expression, index: &'p Expression, to: Slot) -> Compiled {
         let list = self.object(base)?;
         let index = self.value(index)?.input();
+        self.list_get(list, index, to);
+        Ok(())
+    }
+
+    /// Reads an element of a list or set.
+    pub fn list_get(&mut self, list: ObjectIn, index: In, to: Slot) {
         self.emit(Instruction::ListGet {
             list,
             index,
             scalars: to.block(),
             objects: to.objects(),
         });
-        Ok(())
+    }
+
+    /// How many elements or characters an object has, in a new register.
+    pub fn object_size(&mut self, from: ObjectIn) -> Compiled<Slot> {
+        let size = self.take(Size::SCALAR)?;
+        self.emit(Instruction::Size {
+            to: size.output(),
+            from,
+        });
+        Ok(size)
     }
 
     /// `map[key]`
@@ -127,12 +142,7 @@ impl<'p> Body<'_, 'p> {
         };
         let index = self.take(Size::SCALAR)?;
         at(self, index)?;
-        self.emit(Instruction::ListGet {
-            list: from,
-            index: index.input(),
-            scalars: value.block(),
-            objects: value.objects(),
-        });
+        self.list_get(from, index.input(), value);
         if **element != *ty {
             self.scalar(to, 1);
         }

@@ -2,19 +2,15 @@
 
 use crate::check::Builtin;
 use crate::compile::body::{Body, Slot};
+use crate::compile::call::Arguments;
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
-use crate::ir::{Expression, Type};
+use crate::ir::Type;
 use crate::machine::operand::Binary;
 use crate::machine::{Instruction, operand};
 
 impl<'p> Body<'_, 'p> {
-    pub fn geometry(
-        &mut self,
-        builtin: Builtin,
-        arguments: &'p [Option<Expression>],
-        to: Slot,
-    ) -> Compiled {
+    pub fn geometry(&mut self, builtin: Builtin, arguments: Arguments<'p>, to: Slot) -> Compiled {
         match builtin {
             Builtin::MakePoint => self.make_point(arguments, to),
             Builtin::Distance => {
@@ -53,7 +49,7 @@ impl<'p> Body<'_, 'p> {
     }
 
     /// `Point(x, y, z)`
-    fn make_point(&mut self, arguments: &'p [Option<Expression>], to: Slot) -> Compiled {
+    fn make_point(&mut self, arguments: Arguments<'p>, to: Slot) -> Compiled {
         for axis in 0..3 {
             let at = to.at(Size::new(axis, 0));
             match arguments.get(axis as usize).and_then(Option::as_ref) {
@@ -65,7 +61,7 @@ impl<'p> Body<'_, 'p> {
     }
 
     /// The direction from one point to another.
-    fn bearing(&mut self, arguments: &'p [Option<Expression>], to: Slot) -> Compiled {
+    fn bearing(&mut self, arguments: Arguments<'p>, to: Slot) -> Compiled {
         let from = self.value(self.given(arguments, 0)?)?.point();
         let at = self.value(self.given(arguments, 1)?)?.point();
         let way = self.take(Size::new(3, 0))?;

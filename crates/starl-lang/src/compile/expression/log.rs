@@ -5,11 +5,11 @@ use alloc::vec::Vec;
 
 use crate::check::Builtin;
 use crate::compile::body::{Body, Slot};
-use crate::compile::call::HostFunction;
+use crate::compile::call::{Arguments, HostFunction};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::ir::{Expression, ExpressionKind, Type};
-use crate::machine::operand::{Immediate, ImportIndex, Short};
+use crate::machine::operand::{Immediate, Short};
 use crate::machine::{Import, Instruction};
 
 /// The registers for the pieces of a format between its places.
@@ -30,7 +30,7 @@ impl<'p> Body<'_, 'p> {
     /// `log(format, ...)`
     pub fn log(
         &mut self,
-        arguments: &'p [Option<Expression>],
+        arguments: Arguments<'p>,
         rest: &'p [(Option<String>, Expression)],
     ) -> Compiled {
         let format = self.given(arguments, 0)?;
@@ -43,18 +43,14 @@ impl<'p> Body<'_, 'p> {
         }
         let kind = self.machine_type(&Type::String)?;
         let HostFunction { name, is_query, .. } = HostFunction::effect(Builtin::Log.name());
-        let import = self.unit.import(Import {
+        let import = Import {
             name,
             query: is_query,
             labels: Vec::new(),
             arguments: Vec::from([kind]),
             results: Vec::new(),
-        });
-        self.emit(Instruction::CallHost {
-            scalars: text.block(),
-            objects: text.objects(),
-            import: ImportIndex(import),
-        });
+        };
+        self.call_host(import, text);
         self.release(mark);
         Ok(())
     }
@@ -102,7 +98,7 @@ impl<'p> Body<'_, 'p> {
             index: self.take(Size::SCALAR)?,
         };
         self.split(format, &pieces)?;
-        self.list_get(pieces.list, pieces.index, to);
+        self.list_get(pieces.list.object_in(), pieces.index.input(), to);
         for (number, (_, value)) in rest.iter().enumerate() {
             let mark = self.mark();
             let slot = self.value(value)?;
@@ -163,18 +159,9 @@ impl<'p> Body<'_, 'p> {
         });
     }
 
-    fn list_get(&mut self, list: Slot, index: Slot, to: Slot) {
-        self.emit(Instruction::ListGet {
-            list: list.object_in(),
-            index: index.input(),
-            scalars: to.block(),
-            objects: to.objects(),
-        });
-    }
-
     /// Puts the piece that it is at at the end of the text.
     fn append_listed(&mut self, pieces: &Pieces, to: Slot) {
-        self.list_get(pieces.list, pieces.index, pieces.piece);
+        self.list_get(pieces.list.object_in(), pieces.index.input(), pieces.piece);
         self.emit(Instruction::AppendText {
             text: to.object_in_out(),
             from: pieces.piece.object_in(),

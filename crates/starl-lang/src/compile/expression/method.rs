@@ -207,11 +207,7 @@ impl<'p> Body<'_, 'p> {
         ty: &Type,
         to: Slot,
     ) -> Compiled {
-        let size = self.take(Size::SCALAR)?;
-        self.emit(Instruction::Size {
-            to: size.output(),
-            from,
-        });
+        let size = self.object_size(from)?;
         self.element_or_none(from, size, collection, ty, to, |body, index| {
             match is_last {
                 true => body.emit(Instruction::AddConstant {

@@ -160,8 +160,9 @@ impl<'p> Body<'_, 'p> {
                 then,
                 otherwise,
             } => self.conditional(condition, [then, otherwise], to, is_fresh),
-            ExpressionKind::List(elements) => self.list(elements, ty, to),
-            ExpressionKind::Set(elements) => self.set(elements, ty, to),
+            ExpressionKind::List(elements) | ExpressionKind::Set(elements) => {
+                self.list(elements, ty, to)
+            }
             ExpressionKind::Map(entries) => self.map(entries, ty, to),
             ExpressionKind::Comprehension(made) => self.comprehension(made, ty, to),
             ExpressionKind::Best {

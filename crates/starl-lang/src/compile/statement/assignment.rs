@@ -146,12 +146,7 @@ impl<'p> Body<'_, 'p> {
     fn put_entry(&mut self, mut way: Way<'p>, entry: Slot) -> Compiled {
         let kind = self.object_type(way.ty)?;
         let map = self.container(&mut way)?;
-        self.emit(Instruction::MapPut {
-            map,
-            scalars: entry.block(),
-            objects: entry.objects(),
-            kind,
-        });
+        self.map_put(map, entry, kind);
         self.write_back(way.back)
     }
 }

@@ -149,12 +149,7 @@ impl<'p> Body<'_, 'p> {
             (Step::Index(_), Prepared::Index(index)) => {
                 let list = self.container(way)?;
                 let element = self.take_for(next)?;
-                self.emit(Instruction::ListGet {
-                    list: ObjectIn(list.0),
-                    index,
-                    scalars: element.block(),
-                    objects: element.objects(),
-                });
+                self.list_get(ObjectIn(list.0), index, element);
                 way.back.push(WriteBack::List(list, index, element));
                 way.at = Location::Registers(element);
             }
@@ -232,12 +227,7 @@ impl<'p> Body<'_, 'p> {
                     scalars: element.block(),
                     objects: element.objects(),
                 }),
-                WriteBack::Map(map, entry, kind) => self.emit(Instruction::MapPut {
-                    map,
-                    scalars: entry.block(),
-                    objects: entry.objects(),
-                    kind,
-                }),
+                WriteBack::Map(map, entry, kind) => self.map_put(map, entry, kind),
                 WriteBack::Object(variable, slot) => self.emit(Instruction::StoreObject {
                     variable,
                     from: slot.object_in_out(),
