@@ -5,7 +5,7 @@ use alloc::string::{String, ToString};
 
 use super::body::Where;
 use super::state::Checker;
-use super::tables::{PRIMITIVES, Primitive};
+use super::tables::Primitive;
 use crate::diagnostic::{Diagnostic, Span};
 
 impl Checker {
@@ -178,8 +178,9 @@ impl Checker {
 
     /// Whether the name at the place is used as a primitive: its flag or method follows.
     pub(super) fn is_of_primitive(&self, span: Span) -> bool {
-        let member = self.member_after(span);
-        PRIMITIVES.iter().any(|kind| kind.member(member).is_some())
+        Primitive::with_member(self.member_after(span))
+            .next()
+            .is_some()
     }
 
     /// The name after the dot that follows the place, if there is one.
@@ -202,17 +203,13 @@ impl Checker {
 
     /// `motion.active` where nothing is called `motion`.
     fn unbound(&self, problem: Diagnostic, name: &str, member: &str, span: Span) -> Diagnostic {
-        let mut having = PRIMITIVES
-            .iter()
-            .filter(|kind| kind.member(member).is_some());
-        let Some(first) = having.next() else {
+        let Some(first) = Primitive::with_member(member).next() else {
             return problem;
         };
         if let Some(bound) = self.only_binding_with(member) {
             return problem.replace(format!("did you mean `{bound}`?"), span, bound);
         }
-        let usual = PRIMITIVES.iter().find(|kind| usual_name(kind) == name);
-        let usual = usual.filter(|kind| kind.member(member).is_some());
+        let usual = Primitive::with_member(member).find(|kind| usual_name(kind) == name);
         let declaration = declaration(name, usual.unwrap_or(first));
         problem.note(format!(
             "`{member}` belongs to a primitive, which is declared outside of actions: `{declaration}`"
@@ -226,10 +223,7 @@ impl Checker {
         method: &str,
         span: Span,
     ) -> Diagnostic {
-        let mut having = PRIMITIVES
-            .iter()
-            .filter(|kind| kind.member(method).is_some());
-        let Some(kind) = having.next() else {
+        let Some(kind) = Primitive::with_member(method).next() else {
             return problem;
         };
         if let Some(bound) = self.only_binding_with(method) {

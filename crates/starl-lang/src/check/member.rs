@@ -12,7 +12,7 @@ use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
 use super::surroundings::Surroundings;
-use super::tables::{Builtin, Member, Method, PRIMITIVES, Primitive, Signature};
+use super::tables::{Builtin, Member, Method, Primitive, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
 use crate::syntax::ast::{self, AstNode};
@@ -156,10 +156,7 @@ impl Checker {
             None => did_you_mean(problem, at, name, names()),
         };
         let problem = problem.note(format!("it has {}", listed(names())));
-        let others = PRIMITIVES
-            .iter()
-            .filter(|other| other.member(name).is_some());
-        let others: Vec<&str> = others.map(Primitive::name).collect();
+        let others: Vec<&str> = Primitive::with_member(name).map(Primitive::name).collect();
         let note = format!("`{name}` belongs to {}", listed(others.iter().copied()));
         self.report(problem.note_if((!others.is_empty()).then_some(note)));
         None

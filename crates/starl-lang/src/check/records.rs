@@ -31,10 +31,8 @@ impl Checker {
             };
             let fields = &self.program[id].fields;
             if let Some(first) = fields.iter().find(|other| other.name == name.text) {
-                let message = format!("there are two fields `{}`", name.text);
-                let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
-                let problem = problem.label(first.site.span, "the first one");
-                self.report(problem);
+                let first = first.site.span;
+                self.duplicate("fields", &name.text, name.span, first);
                 continue;
             }
             let site = self.site(name.span);

@@ -63,62 +63,22 @@ pub(crate) fn unit_meant(word: &str) -> Option<&'static str> {
 
 /// The type that other languages call so, in any case.
 pub(crate) fn type_meant(word: &str) -> Option<&'static str> {
-    let mut types = FOREIGN_TYPES.iter();
-    let (_, meant) = types.find(|(other, _)| other.eq_ignore_ascii_case(word))?;
-    Some(*meant)
+    Some(match word.to_ascii_lowercase().as_str() {
+        "int" | "integer" | "long" | "uint" | "i32" | "i64" | "u32" | "u64" | "usize" => "Int",
+        "float" | "double" | "real" | "number" | "f32" | "f64" | "angle" | "length"
+        | "distance" | "speed" => "Float",
+        "bool" | "boolean" => "Bool",
+        "str" | "string" | "text" | "char" => "String",
+        "itemposition" | "pos" | "position" | "pose" | "vec2" | "vec3" => "Point",
+        "robot" => "RobotId",
+        "timedelta" | "timespan" | "seconds" => "Duration",
+        "datetime" | "timestamp" => "Time",
+        "array" | "vec" | "vector" | "list" | "sequence" => "List",
+        "dict" | "dictionary" | "map" | "hashmap" => "Map",
+        "hashset" | "set" => "Set",
+        _ => return None,
+    })
 }
-
-/// Types of other languages, with StarL's.
-const FOREIGN_TYPES: &[(&str, &str)] = &[
-    ("int", "Int"),
-    ("integer", "Int"),
-    ("long", "Int"),
-    ("uint", "Int"),
-    ("i32", "Int"),
-    ("i64", "Int"),
-    ("u32", "Int"),
-    ("u64", "Int"),
-    ("usize", "Int"),
-    ("float", "Float"),
-    ("double", "Float"),
-    ("real", "Float"),
-    ("number", "Float"),
-    ("f32", "Float"),
-    ("f64", "Float"),
-    ("angle", "Float"),
-    ("length", "Float"),
-    ("distance", "Float"),
-    ("speed", "Float"),
-    ("bool", "Bool"),
-    ("boolean", "Bool"),
-    ("str", "String"),
-    ("string", "String"),
-    ("text", "String"),
-    ("char", "String"),
-    ("ItemPosition", "Point"),
-    ("Pos", "Point"),
-    ("Position", "Point"),
-    ("pose", "Point"),
-    ("vec2", "Point"),
-    ("vec3", "Point"),
-    ("Robot", "RobotId"),
-    ("timedelta", "Duration"),
-    ("timespan", "Duration"),
-    ("seconds", "Duration"),
-    ("datetime", "Time"),
-    ("timestamp", "Time"),
-    ("array", "List"),
-    ("vec", "List"),
-    ("vector", "List"),
-    ("list", "List"),
-    ("sequence", "List"),
-    ("dict", "Map"),
-    ("dictionary", "Map"),
-    ("map", "Map"),
-    ("HashMap", "Map"),
-    ("HashSet", "Set"),
-    ("set", "Set"),
-];
 
 /// The value of a literal without a unit and without a fraction. It may be 2^63, one more than an Int
 /// holds, because the least Int is written with it.

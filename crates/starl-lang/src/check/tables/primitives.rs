@@ -156,6 +156,13 @@ impl Primitive {
         PRIMITIVES.iter().find(|primitive| primitive.name() == name)
     }
 
+    /// Those that have a method or flag with this name.
+    pub fn with_member(name: &str) -> impl Iterator<Item = &'static Self> {
+        PRIMITIVES
+            .iter()
+            .filter(move |primitive| primitive.member(name).is_some())
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &'static str {

@@ -10,10 +10,7 @@ nodes! {
         variants: [Name] in VariantList,
     }
     /// `{a, b}`, the values of an enum
-    VariantList {
-        /// The names.
-        variants: [Name],
-    }
+    VariantList
     /// `record Name {x: Int}`
     RecordDeclaration {
         /// Its fields.

@@ -7,7 +7,7 @@ use alloc::format;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::super::SyntaxKind::*;
+use super::super::SyntaxKind::{self, *};
 use super::super::lexer::Tokens;
 use crate::diagnostic::{Code, Diagnostic, Span};
 
@@ -60,25 +60,15 @@ pub(super) fn pairs(text: &str, tokens: &Tokens, diagnostics: &mut Vec<Diagnosti
 
 fn not_closed(text: &str, tokens: &Tokens, bracket: usize) -> Diagnostic {
     let span = tokens.span(bracket);
-    let closing = tokens
-        .kind(bracket)
-        .closing()
-        .and_then(|kind| kind.text())
-        .unwrap_or_default();
-    Diagnostic::new(
-        Code::UnbalancedBracket,
-        span,
-        format!("this `{}` is not closed", span.of(text)),
-    )
-    .expected(format!("`{closing}`"))
+    let closing = closing_text(tokens.kind(bracket));
+    let message = format!("this `{}` is not closed", span.of(text));
+    let problem = Diagnostic::new(Code::UnbalancedBracket, span, message);
+    problem.expected(format!("`{closing}`"))
 }
 
 fn mismatched(text: &str, tokens: &Tokens, open: usize, close: usize) -> Diagnostic {
     let (open, kind, close) = (tokens.span(open), tokens.kind(open), tokens.span(close));
-    let right = kind
-        .closing()
-        .and_then(|kind| kind.text())
-        .unwrap_or_default();
+    let right = closing_text(kind);
     let message = format!(
         "this `{}` does not close a `{}`",
         close.of(text),
@@ -89,11 +79,13 @@ fn mismatched(text: &str, tokens: &Tokens, open: usize, close: usize) -> Diagnos
         .write(close, right)
 }
 
+fn closing_text(opening: SyntaxKind) -> &'static str {
+    let closing = opening.closing().and_then(SyntaxKind::text);
+    closing.unwrap_or_default()
+}
+
 fn not_opened(text: &str, span: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::UnbalancedBracket,
-        span,
-        format!("this `{}` closes nothing", span.of(text)),
-    )
-    .replace("remove it", span, "")
+    let message = format!("this `{}` closes nothing", span.of(text));
+    let problem = Diagnostic::new(Code::UnbalancedBracket, span, message);
+    problem.replace("remove it", span, "")
 }

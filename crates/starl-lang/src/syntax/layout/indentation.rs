@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::super::SyntaxKind::*;
 use super::super::lexer::Tokens;
 use super::{Lexeme, Line};
-use crate::diagnostic::{Code, Diagnostic, Edit, Fix, Span};
+use crate::diagnostic::{Code, Diagnostic, Edit, Span};
 
 /// A tab goes to the next multiple of this many columns.
 const TAB: u32 = 4;
@@ -138,9 +138,6 @@ pub(super) fn report_tabs(text: &str, tokens: &Tokens, diagnostics: &mut Vec<Dia
         1 => "this line is indented with a tab".into(),
         count => format!("{count} lines are indented with tabs; this is the first"),
     };
-    let fix = Fix {
-        message: "indent with 4 spaces for each tab".into(),
-        edits: edits.clone(),
-    };
-    diagnostics.push(Diagnostic::new(Code::TabIndentation, first.span, message).fix(fix));
+    let problem = Diagnostic::new(Code::TabIndentation, first.span, message);
+    diagnostics.push(problem.edits("indent with 4 spaces for each tab", edits));
 }

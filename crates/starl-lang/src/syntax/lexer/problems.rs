@@ -59,13 +59,8 @@ fn integer(number: &str, span: Span, before: SyntaxKind) -> Option<Diagnostic> {
 }
 
 fn float(number: &str, span: Span) -> Option<Diagnostic> {
-    let too_large = || {
-        Diagnostic::new(
-            Code::MalformedNumber,
-            span,
-            "this number is too large for a Float",
-        )
-    };
+    let message = "this number is too large for a Float";
+    let too_large = || Diagnostic::new(Code::MalformedNumber, span, message);
     literal::float(number).is_none().then(too_large)
 }
 
@@ -86,11 +81,8 @@ fn malformed_number(text: &str, span: Span) -> Diagnostic {
     let place = Span::new(span.start + digits as u32, span.end);
     if text.starts_with('0') && matches!(suffix.as_bytes().first(), Some(b'x' | b'X' | b'b' | b'o'))
     {
-        return Diagnostic::new(
-            Code::MalformedNumber,
-            span,
-            "numbers are written with the digits 0 to 9 only",
-        );
+        let message = "numbers are written with the digits 0 to 9 only";
+        return Diagnostic::new(Code::MalformedNumber, span, message);
     }
     let message = format!("there is no unit `{suffix}`");
     let problem = Diagnostic::new(Code::MalformedNumber, place, message)
@@ -131,12 +123,9 @@ fn malformed_string(text: &str, span: Span) -> Diagnostic {
         let problem = Diagnostic::new(Code::MalformedString, span, "strings are in double quotes");
         return problem.replace("use double quotes", span, format!("\"{inner}\""));
     }
-    Diagnostic::new(
-        Code::MalformedString,
-        span,
-        "this string does not end on its line",
-    )
-    .replace("close it with `\"`", Span::empty(span.end), "\"")
+    let message = "this string does not end on its line";
+    let problem = Diagnostic::new(Code::MalformedString, span, message);
+    problem.replace("close it with `\"`", Span::empty(span.end), "\"")
 }
 
 fn comment(text: &str, span: Span) -> Option<Diagnostic> {
@@ -171,16 +160,8 @@ fn unknown(text: &str, span: Span) -> Diagnostic {
             problem("an angle in degrees is written `90deg`".into()).write(place, "deg")
         }
         '^' => problem("there is no operator `^`".into()).note("a power is written `pow(a, b)`"),
-        '∀' => problem("`∀` is written `forall`".into()).replace(
-            "write `forall`",
-            span,
-            word("forall"),
-        ),
-        '∃' => problem("`∃` is written `exists`".into()).replace(
-            "write `exists`",
-            span,
-            word("exists"),
-        ),
+        '∀' => problem("`∀` is written `forall`".into()).write(span, word("forall")),
+        '∃' => problem("`∃` is written `exists`".into()).write(span, word("exists")),
         _ if character.is_whitespace() => {
             let message = format!("not a plain space: U+{:04X}", u32::from(character));
             problem(message).replace("write a space", span, " ")
@@ -201,7 +182,7 @@ fn spelling(kind: SyntaxKind, text: &str, span: Span) -> Option<Diagnostic> {
     }
     let message = format!("`{found}` is written `{right}`");
     let problem = Diagnostic::new(Code::ForeignOperator, span, message);
-    Some(problem.replace(format!("write `{right}`"), span, apart(right, text, span)))
+    Some(problem.write(span, apart(right, text, span)))
 }
 
 /// `word` with the spaces that it needs in place of what `span` marks.
