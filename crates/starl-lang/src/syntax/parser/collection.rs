@@ -79,8 +79,7 @@ impl Parser<'_> {
         if self.eat(IfKeyword) {
             height = height.max(self.condition().height);
         }
-        if self.at_word("by") {
-            self.bump();
+        if self.eat_word("by") {
             height = height.max(self.expression().height);
         }
         self.finish();

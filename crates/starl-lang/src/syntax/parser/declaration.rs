@@ -134,6 +134,15 @@ impl Parser<'_> {
         self.initial_value();
     }
 
+    /// `name: Type = value`, of which the type and the value may be missing.
+    fn name_and_value(&mut self) {
+        self.name();
+        if self.eat(Colon) {
+            self.any_type();
+        }
+        self.initial_value();
+    }
+
     /// `= value`, if that is next.
     pub(super) fn initial_value(&mut self) {
         if self.eat(Equal) {
@@ -159,21 +168,13 @@ impl Parser<'_> {
             None => problem.note("such as `x: Int = 0`"),
         });
         self.bump();
-        self.name();
-        if self.eat(Colon) {
-            self.any_type();
-        }
-        self.initial_value();
+        self.name_and_value();
     }
 
     /// `Int x = 1` or `var x = 1`.
     pub(super) fn foreign_variable(&mut self) {
         self.foreign_variable_word("");
-        self.name();
-        if self.eat(Colon) {
-            self.any_type();
-        }
-        self.initial_value();
+        self.name_and_value();
     }
 
     /// `name = Primitive(arguments)`.

@@ -4,6 +4,7 @@ use alloc::format;
 
 use rowan::Checkpoint;
 
+use super::statement::Place as StatementPlace;
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
 
 /// Where a declaration stands.
@@ -55,12 +56,7 @@ impl Parser<'_> {
             match self.current() {
                 Dedent | EndOfFile => return,
                 Newline | Semicolon => self.bump(),
-                Indent if place == Place::File => {
-                    self.unexpected_indentation(|parser| parser.indented_items(Place::File));
-                }
-                Indent => {
-                    self.unexpected_indentation(|parser| parser.indented_items(Place::Role));
-                }
+                Indent => self.unexpected_indentation(|parser| parser.indented_items(place)),
                 _ => {
                     self.item(place);
                     self.end_line();
@@ -143,7 +139,7 @@ impl Parser<'_> {
                 let problem = Diagnostic::new(Code::Misplaced, self.span(), message);
                 let note = "statements belong in `init`, in the `eff` of an action, in a handler or a function";
                 self.report(problem.note(note));
-                self.statement(super::statement::Place::OwnLine);
+                self.statement(StatementPlace::OwnLine);
                 self.start_at(start, Error);
                 self.finish();
             }

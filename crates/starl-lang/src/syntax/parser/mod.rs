@@ -3,6 +3,9 @@
 //! Every token goes into the tree in order, so the tree's text is the source. Text that cannot be parsed goes into
 //! nodes of the kind `Error`, up to the end of its line; then parsing continues. Each function that parses something
 //! either takes a token or leaves the work to one that does, so that it always ends.
+//!
+//! The rules of a grammar refer to each other in circles. Therefore the functions are methods of the parser, which
+//! share one namespace: a file has those of one part of the language and imports only types and tables of others.
 
 mod action;
 mod assignment;

@@ -94,28 +94,22 @@ impl Parser<'_> {
             let span = self.span().to(self.nth_span(1));
             self.report_operator(span, "this is one word", "leads_to");
             self.bump();
-        }
-        if leads || self.at_word("leads_to") {
             self.bump();
+        }
+        if leads || self.eat_word("leads_to") {
             self.condition();
         }
-        if self.deadline() {
-            self.expression();
-        } else if self.at_word("within") {
-            self.bump();
+        if self.deadline() || self.eat_word("within") {
             self.expression();
         }
-        if self.at_word("recovers") {
-            self.bump();
+        if self.eat_word("recovers") {
             self.expect_word("within");
             self.expression();
         }
-        if self.at_word("assuming") {
-            self.bump();
+        if self.eat_word("assuming") {
             self.condition();
         }
-        if self.at_word("despite") {
-            self.bump();
+        if self.eat_word("despite") {
             self.expect_word("crashes");
         }
     }
@@ -153,9 +147,7 @@ impl Parser<'_> {
 
     /// A word that has to come next.
     fn expect_word(&mut self, expected: &str) {
-        if self.at_word(expected) {
-            self.bump();
-        } else {
+        if !self.eat_word(expected) {
             self.unexpected(&alloc::format!("`{expected}`"));
         }
     }

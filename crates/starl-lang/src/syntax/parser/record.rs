@@ -2,6 +2,7 @@
 
 use alloc::format;
 
+use super::slips::type_of;
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
 use crate::diagnostic::Edit;
 
@@ -98,7 +99,7 @@ impl Parser<'_> {
         self.start_at(start, kind);
         if self.at(Identifier) && self.nth(1) == Identifier {
             let (ty, named) = (self.span(), self.nth_span(1));
-            let meant = super::slips::type_of(ty.of(self.text));
+            let meant = type_of(ty.of(self.text));
             let form = format!("{}: {meant}", named.of(self.text));
             let message = "the type stands after the name";
             let problem = Diagnostic::new(Code::ForeignDeclaration, ty.to(named), message);

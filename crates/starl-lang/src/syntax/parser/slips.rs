@@ -37,17 +37,10 @@ impl<'a> Parser<'a> {
         let (word, name) = (self.span(), self.nth_span(1));
         let text = self.word();
         let after_name = self.nth(2);
-        let form = if keyword.is_empty() {
-            "`x: Int = 0`"
-        } else {
-            "`let x = 0`"
+        let message = match keyword {
+            "" => "a variable of the state is written `x: Int = 0`",
+            _ => "a local variable is written `let x = 0`",
         };
-        let what = if keyword.is_empty() {
-            "a variable of the state"
-        } else {
-            "a local variable"
-        };
-        let message = format!("{what} is written {form}");
         let problem = Diagnostic::new(Code::ForeignDeclaration, word.to(name), message);
         let name_text = name.of(self.text);
         let fix = if is_untyped(text) {

@@ -27,6 +27,15 @@ impl Parser<'_> {
         found
     }
 
+    /// Takes the next lexeme if it is the name `word`.
+    pub fn eat_word(&mut self, word: &str) -> bool {
+        let found = self.at_word(word);
+        if found {
+            self.bump();
+        }
+        found
+    }
+
     /// Takes the next lexeme, or reports that it is missing.
     pub fn expect(&mut self, kind: SyntaxKind) -> bool {
         let found = self.eat(kind);

@@ -2,6 +2,7 @@
 
 use alloc::format;
 
+use super::slips::type_of;
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
 use crate::diagnostic::Edit;
 
@@ -46,7 +47,7 @@ impl Parser<'_> {
         self.bump();
         if self.at(LeftBracket) && self.nth(1) == RightBracket {
             let span = name.to(self.nth_span(1));
-            let form = format!("List[{}]", super::slips::type_of(name.of(self.text)));
+            let form = format!("List[{}]", type_of(name.of(self.text)));
             let problem =
                 Diagnostic::new(Code::Unexpected, span, "a list is written with its type");
             self.report(problem.write(span, form));
