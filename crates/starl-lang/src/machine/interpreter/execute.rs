@@ -35,6 +35,7 @@ impl Execution<'_> {
         mut base: usize,
         mut object_base: usize,
     ) -> Result<(), RuntimeError> {
+        use Instruction::*;
         let program = self.program;
         let code = &program.bytecode.code[..];
         let entries = &program.entries[..];
@@ -160,47 +161,43 @@ impl Execution<'_> {
                 pc += 1;
                 spend!(1);
                 match instruction {
-                    Instruction::Copy { to, from } => set!(to, r[from.place()]),
-                    Instruction::Int { to, value } => set!(to, i64::from(value.0) as u64),
-                    Instruction::Constant { to, constant } => {
+                    Copy { to, from } => set!(to, r[from.place()]),
+                    Int { to, value } => set!(to, i64::from(value.0) as u64),
+                    Constant { to, constant } => {
                         match program.bytecode.constants.get(constant.0 as usize) {
                             Some(&value) => set!(to, value),
                             None => break 'run Fault::Malformed,
                         }
                     }
-                    Instruction::CopyBlock { to, from, count } => {
+                    CopyBlock { to, from, count } => {
                         spend!(u64::from(count.0 / 8));
                         let end = from.place() + usize::from(count.0);
                         if end <= WINDOW && to.place() + usize::from(count.0) <= WINDOW {
                             r.copy_within(from.place()..end, to.place());
                         }
                     }
-                    Instruction::Load { to, variable } => {
-                        match self.state.scalars.get(variable.0 as usize) {
-                            Some(&value) => set!(to, value),
-                            None => break 'run Fault::Malformed,
-                        }
-                    }
-                    Instruction::Store { variable, from } => {
+                    Load { to, variable } => match self.state.scalars.get(variable.0 as usize) {
+                        Some(&value) => set!(to, value),
+                        None => break 'run Fault::Malformed,
+                    },
+                    Store { variable, from } => {
                         match self.state.scalars.get_mut(variable.0 as usize) {
                             Some(place) => *place = r[from.place()],
                             None => break 'run Fault::Malformed,
                         }
                     }
-                    Instruction::LoadPoint { to, variable } => {
-                        match three(&self.state.scalars, variable.0) {
-                            Some(point) => set_three(r, to, point),
-                            None => break 'run Fault::Malformed,
-                        }
-                    }
-                    Instruction::StorePoint { variable, from } => {
+                    LoadPoint { to, variable } => match three(&self.state.scalars, variable.0) {
+                        Some(point) => set_three(r, to, point),
+                        None => break 'run Fault::Malformed,
+                    },
+                    StorePoint { variable, from } => {
                         let start = variable.0 as usize;
                         match self.state.scalars.get_mut(start..start.wrapping_add(3)) {
                             Some(place) => place.copy_from_slice(&get_three(r, from)),
                             None => break 'run Fault::Malformed,
                         }
                     }
-                    Instruction::LoadOther {
+                    LoadOther {
                         to,
                         robot,
                         variable,
@@ -211,7 +208,7 @@ impl Execution<'_> {
                             Err(fault) => break 'run fault,
                         }
                     }
-                    Instruction::LoadOtherPoint {
+                    LoadOtherPoint {
                         to,
                         robot,
                         variable,
@@ -223,86 +220,70 @@ impl Execution<'_> {
                         }
                     }
 
-                    Instruction::AddInt { to, left, right } => {
-                        set_int!(to, int!(left).checked_add(int!(right)))
-                    }
-                    Instruction::SubtractInt { to, left, right } => {
+                    AddInt { to, left, right } => set_int!(to, int!(left).checked_add(int!(right))),
+                    SubtractInt { to, left, right } => {
                         set_int!(to, int!(left).checked_sub(int!(right)))
                     }
-                    Instruction::MultiplyInt { to, left, right } => {
+                    MultiplyInt { to, left, right } => {
                         set_int!(to, int!(left).checked_mul(int!(right)))
                     }
-                    Instruction::DivideInt { to, left, right } => {
+                    DivideInt { to, left, right } => {
                         set_or_stop!(to, scalar::divide(int!(left), int!(right)))
                     }
-                    Instruction::RemainderInt { to, left, right } => {
+                    RemainderInt { to, left, right } => {
                         set_or_stop!(to, scalar::remainder(int!(left), int!(right)))
                     }
-                    Instruction::AddConstant { to, left, right } => {
+                    AddConstant { to, left, right } => {
                         set_int!(to, int!(left).checked_add(i64::from(right.0)))
                     }
-                    Instruction::MultiplyConstant { to, left, right } => {
+                    MultiplyConstant { to, left, right } => {
                         set_int!(to, int!(left).checked_mul(i64::from(right.0)))
                     }
-                    Instruction::DivideConstant { to, left, right } => {
+                    DivideConstant { to, left, right } => {
                         set_or_stop!(to, scalar::divide(int!(left), i64::from(right.0)))
                     }
-                    Instruction::RemainderConstant { to, left, right } => {
+                    RemainderConstant { to, left, right } => {
                         set_or_stop!(to, scalar::remainder(int!(left), i64::from(right.0)))
                     }
-                    Instruction::NegateInt { to, from } => {
-                        set_int!(to, int!(from).checked_neg())
-                    }
-                    Instruction::AbsoluteInt { to, from } => {
-                        set_int!(to, int!(from).checked_abs())
-                    }
-                    Instruction::MinimumInt { to, left, right } => {
-                        set!(to, int!(left).min(int!(right)) as u64)
-                    }
-                    Instruction::MaximumInt { to, left, right } => {
-                        set!(to, int!(left).max(int!(right)) as u64)
-                    }
+                    NegateInt { to, from } => set_int!(to, int!(from).checked_neg()),
+                    AbsoluteInt { to, from } => set_int!(to, int!(from).checked_abs()),
+                    MinimumInt { to, left, right } => set!(to, int!(left).min(int!(right)) as u64),
+                    MaximumInt { to, left, right } => set!(to, int!(left).max(int!(right)) as u64),
 
-                    Instruction::SubtractSpan { to, left, right } => {
+                    SubtractSpan { to, left, right } => {
                         set!(to, int!(left).saturating_sub(int!(right)).max(0) as u64)
                     }
-                    Instruction::MultiplySpan { to, span, times } => {
+                    MultiplySpan { to, span, times } => {
                         set_int!(to, scalar::multiply_span(int!(span), int!(times)))
                     }
-                    Instruction::ScaleSpan { to, span, factor } => {
+                    ScaleSpan { to, span, factor } => {
                         set_or_stop!(to, scalar::scale_span(int!(span), float!(factor)))
                     }
-                    Instruction::RatioSpan { to, left, right } => {
+                    RatioSpan { to, left, right } => {
                         set_or_stop!(to, scalar::ratio_span(int!(left), int!(right)))
                     }
 
-                    Instruction::AddFloat { to, left, right } => {
-                        set_float!(to, float!(left) + float!(right))
-                    }
-                    Instruction::SubtractFloat { to, left, right } => {
+                    AddFloat { to, left, right } => set_float!(to, float!(left) + float!(right)),
+                    SubtractFloat { to, left, right } => {
                         set_float!(to, float!(left) - float!(right))
                     }
-                    Instruction::MultiplyFloat { to, left, right } => {
+                    MultiplyFloat { to, left, right } => {
                         set_float!(to, float!(left) * float!(right))
                     }
-                    Instruction::DivideFloat { to, left, right } => {
-                        set_float!(to, float!(left) / float!(right))
-                    }
-                    Instruction::NegateFloat { to, from } => set!(to, r[from.place()] ^ 1 << 63),
-                    Instruction::AbsoluteFloat { to, from } => {
-                        set!(to, r[from.place()] & !(1 << 63))
-                    }
-                    Instruction::MinimumFloat { to, left, right } => {
+                    DivideFloat { to, left, right } => set_float!(to, float!(left) / float!(right)),
+                    NegateFloat { to, from } => set!(to, r[from.place()] ^ 1 << 63),
+                    AbsoluteFloat { to, from } => set!(to, r[from.place()] & !(1 << 63)),
+                    MinimumFloat { to, left, right } => {
                         set_float!(to, scalar::minimum(float!(left), float!(right)))
                     }
-                    Instruction::MaximumFloat { to, left, right } => {
+                    MaximumFloat { to, left, right } => {
                         set_float!(to, scalar::maximum(float!(left), float!(right)))
                     }
-                    Instruction::Unary { to, from, function } => {
+                    Unary { to, from, function } => {
                         spend!(7);
                         set_float!(to, scalar::unary(function, float!(from)))
                     }
-                    Instruction::Binary {
+                    Binary {
                         to,
                         left,
                         right,
@@ -311,124 +292,110 @@ impl Execution<'_> {
                         spend!(7);
                         set_float!(to, scalar::binary(function, float!(left), float!(right)))
                     }
-                    Instruction::FloatOfInt { to, from } => set_float!(to, int!(from) as f64),
-                    Instruction::IntOfFloat { to, from, rounding } => {
+                    FloatOfInt { to, from } => set_float!(to, int!(from) as f64),
+                    IntOfFloat { to, from, rounding } => {
                         set_or_stop!(to, scalar::int_of_float(float!(from), rounding))
                     }
 
-                    Instruction::Not { to, from } => set_bool!(to, r[from.place()] == 0),
-                    Instruction::And { to, left, right } => {
+                    Not { to, from } => set_bool!(to, r[from.place()] == 0),
+                    And { to, left, right } => {
                         set_bool!(to, r[left.place()] != 0 && r[right.place()] != 0)
                     }
-                    Instruction::Or { to, left, right } => {
+                    Or { to, left, right } => {
                         set_bool!(to, r[left.place()] != 0 || r[right.place()] != 0)
                     }
-                    Instruction::Equal { to, left, right } => {
-                        set_bool!(to, r[left.place()] == r[right.place()])
-                    }
-                    Instruction::NotEqual { to, left, right } => {
+                    Equal { to, left, right } => set_bool!(to, r[left.place()] == r[right.place()]),
+                    NotEqual { to, left, right } => {
                         set_bool!(to, r[left.place()] != r[right.place()])
                     }
-                    Instruction::LessInt { to, left, right } => {
-                        set_bool!(to, int!(left) < int!(right))
-                    }
-                    Instruction::LessEqualInt { to, left, right } => {
-                        set_bool!(to, int!(left) <= int!(right))
-                    }
-                    Instruction::EqualFloat { to, left, right } => {
-                        set_bool!(to, float!(left) == float!(right))
-                    }
-                    Instruction::LessFloat { to, left, right } => {
-                        set_bool!(to, float!(left) < float!(right))
-                    }
-                    Instruction::LessEqualFloat { to, left, right } => {
+                    LessInt { to, left, right } => set_bool!(to, int!(left) < int!(right)),
+                    LessEqualInt { to, left, right } => set_bool!(to, int!(left) <= int!(right)),
+                    EqualFloat { to, left, right } => set_bool!(to, float!(left) == float!(right)),
+                    LessFloat { to, left, right } => set_bool!(to, float!(left) < float!(right)),
+                    LessEqualFloat { to, left, right } => {
                         set_bool!(to, float!(left) <= float!(right))
                     }
 
-                    Instruction::CopyPoint { to, from } => {
+                    CopyPoint { to, from } => {
                         let point = get_three(r, from);
                         set_three(r, to, point);
                     }
-                    Instruction::AddPoint { to, left, right } => {
+                    AddPoint { to, left, right } => {
                         let sum = get_point(r, left) + get_point(r, right);
                         set_point(r, to, sum);
                     }
-                    Instruction::SubtractPoint { to, left, right } => {
+                    SubtractPoint { to, left, right } => {
                         let difference = get_point(r, left) - get_point(r, right);
                         set_point(r, to, difference);
                     }
-                    Instruction::NegatePoint { to, from } => {
+                    NegatePoint { to, from } => {
                         let point = -get_point(r, from);
                         set_point(r, to, point);
                     }
-                    Instruction::ScalePoint { to, from, factor } => {
+                    ScalePoint { to, from, factor } => {
                         let product = get_point(r, from) * float!(factor);
                         set_point(r, to, product);
                     }
-                    Instruction::DividePoint { to, from, divisor } => {
+                    DividePoint { to, from, divisor } => {
                         let quotient = get_point(r, from) / float!(divisor);
                         set_point(r, to, quotient);
                     }
-                    Instruction::Distance { to, left, right } => {
+                    Distance { to, left, right } => {
                         set_float!(to, get_point(r, left).distance(get_point(r, right)))
                     }
-                    Instruction::EqualPoint { to, left, right } => {
+                    EqualPoint { to, left, right } => {
                         set_bool!(to, get_point(r, left) == get_point(r, right))
                     }
 
-                    Instruction::Jump { target } => pc = target.0 as usize,
-                    Instruction::JumpIf { condition, target } => {
-                        jump_if!(r[condition.place()] != 0, target)
-                    }
-                    Instruction::JumpUnless { condition, target } => {
-                        jump_if!(r[condition.place()] == 0, target)
-                    }
-                    Instruction::JumpIfEqual {
+                    Jump { target } => pc = target.0 as usize,
+                    JumpIf { condition, target } => jump_if!(r[condition.place()] != 0, target),
+                    JumpUnless { condition, target } => jump_if!(r[condition.place()] == 0, target),
+                    JumpIfEqual {
                         left,
                         right,
                         target,
                     } => jump_if!(r[left.place()] == r[right.place()], target),
-                    Instruction::JumpIfNotEqual {
+                    JumpIfNotEqual {
                         left,
                         right,
                         target,
                     } => jump_if!(r[left.place()] != r[right.place()], target),
-                    Instruction::JumpIfLess {
+                    JumpIfLess {
                         left,
                         right,
                         target,
                     } => jump_if!(int!(left) < int!(right), target),
-                    Instruction::JumpIfLessEqual {
+                    JumpIfLessEqual {
                         left,
                         right,
                         target,
                     } => jump_if!(int!(left) <= int!(right), target),
-                    Instruction::JumpIfEqualConstant {
+                    JumpIfEqualConstant {
                         left,
                         right,
                         target,
                     } => jump_if!(int!(left) == i64::from(right.0), target),
-                    Instruction::JumpIfNotEqualConstant {
+                    JumpIfNotEqualConstant {
                         left,
                         right,
                         target,
                     } => jump_if!(int!(left) != i64::from(right.0), target),
-                    Instruction::JumpIfLessConstant {
+                    JumpIfLessConstant {
                         left,
                         right,
                         target,
                     } => jump_if!(int!(left) < i64::from(right.0), target),
-                    Instruction::JumpUnlessLessConstant {
+                    JumpUnlessLessConstant {
                         left,
                         right,
                         target,
                     } => jump_if!(int!(left) >= i64::from(right.0), target),
-                    Instruction::JumpIfLessFloat {
+                    JumpIfLessFloat {
                         left,
                         right,
                         target,
                     } => jump_if!(float!(left) < float!(right), target),
-                    Instruction::JumpUnlessLessFloat {
+                    JumpUnlessLessFloat {
                         left,
                         right,
                         target,
@@ -436,12 +403,12 @@ impl Execution<'_> {
                         let less = float!(left) < float!(right);
                         jump_if!(!less, target)
                     }
-                    Instruction::JumpIfLessEqualFloat {
+                    JumpIfLessEqualFloat {
                         left,
                         right,
                         target,
                     } => jump_if!(float!(left) <= float!(right), target),
-                    Instruction::JumpUnlessLessEqualFloat {
+                    JumpUnlessLessEqualFloat {
                         left,
                         right,
                         target,
@@ -449,7 +416,7 @@ impl Execution<'_> {
                         let less_equal = float!(left) <= float!(right);
                         jump_if!(!less_equal, target)
                     }
-                    Instruction::JumpIfStateNot {
+                    JumpIfStateNot {
                         right,
                         target,
                         variable,
@@ -457,7 +424,7 @@ impl Execution<'_> {
                         Some(&value) => jump_if!(value as i64 != i64::from(right.0), target),
                         None => break 'run Fault::Malformed,
                     },
-                    Instruction::Loop {
+                    Loop {
                         counter,
                         limit,
                         target,
@@ -468,13 +435,13 @@ impl Execution<'_> {
                         }
                         None => break 'run Fault::Overflow,
                     },
-                    Instruction::Require { present } => {
+                    Require { present } => {
                         if r[present.place()] == 0 {
                             break 'run Fault::NoneUnwrapped;
                         }
                     }
 
-                    Instruction::Call {
+                    Call {
                         scalars,
                         objects,
                         function,
@@ -511,19 +478,19 @@ impl Execution<'_> {
                         object_base += objects.place();
                         continue 'run;
                     }
-                    Instruction::ReturnScalar { from, until } => {
+                    ReturnScalar { from, until } => {
                         r[0] = r[from.place()];
                         leave!(0, until);
                     }
-                    Instruction::Return { keep, until } => {
+                    Return { keep, until } => {
                         leave!(usize::from(keep.0), until);
                     }
-                    Instruction::ReturnFalse { until } => {
+                    ReturnFalse { until } => {
                         r[0] = 0;
                         leave!(0, until);
                     }
                     // The commonest instructions on objects, in the commonest case.
-                    Instruction::ListGet {
+                    ListGet {
                         list,
                         index,
                         scalars,
@@ -550,7 +517,7 @@ impl Execution<'_> {
                             }
                         }
                     }
-                    Instruction::ListSet {
+                    ListSet {
                         list,
                         index,
                         scalars,
@@ -572,7 +539,7 @@ impl Execution<'_> {
                             _ => object_instruction!(instruction),
                         }
                     }
-                    Instruction::MapGet {
+                    MapGet {
                         map,
                         scalars,
                         objects: key,
@@ -589,7 +556,7 @@ impl Execution<'_> {
                             None => object_instruction!(instruction),
                         }
                     }
-                    Instruction::MapPut {
+                    MapPut {
                         map,
                         scalars,
                         objects: key,
@@ -611,7 +578,7 @@ impl Execution<'_> {
                             None => object_instruction!(instruction),
                         }
                     }
-                    Instruction::Size { to, from } => {
+                    Size { to, from } => {
                         let (objects, state) = (&self.workspace.objects, &self.state.objects);
                         let object = object_at(objects, object_base, state, from.0);
                         match object.map(Object::body) {

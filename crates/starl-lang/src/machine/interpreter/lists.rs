@@ -1,7 +1,7 @@
 //! Instructions on lists.
 
 use crate::machine::error::Fault;
-use crate::machine::interpreter::view::{View, object_at, shift};
+use crate::machine::interpreter::view::{View, object_at, shift, write_scalars};
 use crate::machine::operand::{
     Block, In, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, PairOut, Type,
 };
@@ -31,12 +31,7 @@ impl View<'_> {
         value: object::Block<'_>,
         (scalars, objects): (usize, usize),
     ) -> Result<u64, Fault> {
-        let place = self
-            .registers
-            .get_mut(scalars..scalars + value.scalars.len());
-        place
-            .ok_or(Fault::Malformed)?
-            .copy_from_slice(value.scalars);
+        write_scalars(self.registers, scalars, value.scalars)?;
         let start = self.object_base + objects;
         let mut bytes = 0;
         for (offset, object) in value.objects.iter().enumerate() {
@@ -66,11 +61,8 @@ impl View<'_> {
         };
         // An element with one object at most is copied at once; more need the list to be held.
         if element.objects.len() < 2 {
-            let start = scalars.place();
             let width = element.scalars.len();
-            let place = self.registers.get_mut(start..start + width);
-            let place = place.ok_or(Fault::Malformed)?;
-            place.copy_from_slice(element.scalars);
+            write_scalars(self.registers, scalars.place(), element.scalars)?;
             return match element.objects.first().cloned() {
                 None => Ok(width as u64 / 8),
                 Some(object) => {

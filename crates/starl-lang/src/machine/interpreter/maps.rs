@@ -2,7 +2,7 @@
 
 use crate::machine::error::Fault;
 use crate::machine::interpreter::lists::insert;
-use crate::machine::interpreter::view::{View, object_at, shift};
+use crate::machine::interpreter::view::{View, object_at, shift, write_scalars};
 use crate::machine::interpreter::workspace::{Registers, WINDOW};
 use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, Type};
 use crate::machine::types::Parts;
@@ -132,10 +132,7 @@ impl View<'_> {
         if let Some(value) = values.and_then(Object::list).and_then(|v| v.get(at))
             && value.objects.is_empty()
         {
-            let place = self.registers.get_mut(to.0..to.0 + value.scalars.len());
-            place
-                .ok_or(Fault::Malformed)?
-                .copy_from_slice(value.scalars);
+            write_scalars(self.registers, to.0, value.scalars)?;
             return Ok(value.scalars.len() as u64 / 8);
         }
         let values = values.cloned();

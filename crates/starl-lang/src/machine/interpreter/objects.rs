@@ -12,222 +12,154 @@ use crate::machine::value::object::Object;
 use core::cmp::Ordering;
 use starl_core::{Area, ConvexPolygon, Point, RobotId};
 
+/// Executes an instruction: one in the table by a method, which takes the operands with these names, any other one by an
+/// arm behind `else`.
+macro_rules! by_method {
+    ($view:ident, $instruction:ident {
+        $($name:ident => $method:ident($($operand:ident),*),)*
+    } else {
+        $($arms:tt)*
+    }) => {
+        match $instruction {
+            $($name { $($operand,)* .. } => $view.$method($($operand),*),)*
+            $($arms)*
+        }
+    };
+}
+
 impl View<'_> {
     /// Executes an instruction on objects or a call of the host; returns the cost beyond one.
     pub fn execute(&mut self, instruction: Instruction) -> Result<u64, Fault> {
         use Instruction::*;
-        match instruction {
-            CallHost {
-                scalars,
-                objects,
-                import,
-            } => self.call_host(scalars, objects, import),
-            LoadOtherObject {
-                to,
-                robot,
-                variable,
-            } => self.load_other(to, robot, variable),
-            CopyObject { to, from } => {
-                let object = self.read(from)?.clone();
-                self.share(to, object)
-            }
-            MoveObject { to, from } => {
-                let object = core::mem::take(self.place(from.0)?);
-                *self.place(to.0)? = object;
-                Ok(0)
-            }
-            ClearObject { to, .. } => {
-                *self.place(to.0)? = Object::EMPTY;
-                Ok(0)
-            }
-            LoadObject { to, variable } => {
-                let object = self.state.get(variable.0 as usize).cloned();
-                self.share(to, object.ok_or(Fault::Malformed)?)
-            }
-            StoreObject { variable, from } => {
-                let object = core::mem::take(self.place(from.0)?);
-                let place = self.state.get_mut(variable.0 as usize);
-                *place.ok_or(Fault::Malformed)? = object;
-                Ok(0)
-            }
-            EqualObject {
-                to,
-                left,
-                right,
-                kind,
-            } => self.compare(to, left, right, kind, Ordering::is_eq),
-            LessObject {
-                to,
-                left,
-                right,
-                kind,
-            } => self.compare(to, left, right, kind, Ordering::is_lt),
-            Size { to, from } => self.size(to, from),
+        by_method! {
+            self, instruction {
+                CallHost => call_host(scalars, objects, import),
+                LoadOtherObject => load_other(to, robot, variable),
+                Size => size(to, from),
 
-            Text { to, constant } => self.text(to, constant),
-            AppendText { text, from } => self.append_text(text, from),
-            AppendScalar { text, from, format } => self.append_scalar(text, from, format),
-            AppendPoint { text, from } => self.append_point(text, from),
-            AppendVariant { text, from, of } => self.append_variant(text, from, of),
-            AppendObject { text, from, kind } => self.append_object(text, from, kind),
-            AppendQuoted { text, from } => self.append_quoted(text, from),
-            ContainsText { to, text, part } => self.contains_text(to, text, part),
-            SplitText {
-                to,
-                text,
-                separator,
-                ..
-            } => self.split_text(to, text, separator),
-            MatchText {
-                to,
-                text,
-                part,
-                end,
-            } => self.match_text(to, text, part, end),
-            ChangeText { to, text, change } => self.change_text(to, text, change),
-            ReplaceText { to, text, part, by } => self.replace_text(to, text, part, by),
-            JoinTexts {
-                to,
-                list,
-                separator,
-            } => self.join_texts(to, list, separator),
-            NumberOfText { to, text, format } => self.number_of_text(to, text, format),
+                Text => text(to, constant),
+                AppendText => append_text(text, from),
+                AppendScalar => append_scalar(text, from, format),
+                AppendPoint => append_point(text, from),
+                AppendVariant => append_variant(text, from, of),
+                AppendObject => append_object(text, from, kind),
+                AppendQuoted => append_quoted(text, from),
+                ContainsText => contains_text(to, text, part),
+                SplitText => split_text(to, text, separator),
+                MatchText => match_text(to, text, part, end),
+                ChangeText => change_text(to, text, change),
+                ReplaceText => replace_text(to, text, part, by),
+                JoinTexts => join_texts(to, list, separator),
+                NumberOfText => number_of_text(to, text, format),
 
-            ListGet {
-                list,
-                index,
-                scalars,
-                objects,
-            } => self.list_get(list, index, scalars, objects),
-            ListSet {
-                list,
-                index,
-                scalars,
-                objects,
-            } => self.list_set(list, index, scalars, objects),
-            ListAdd {
-                list,
-                scalars,
-                objects,
-                kind,
-            } => self.list_add(list, scalars, objects, kind),
-            ListInsert {
-                list,
-                index,
-                scalars,
-                objects,
-                kind,
-            } => self.list_insert(list, index, scalars, objects, kind),
-            ListRemoveAt { list, index } => self.list_remove_at(list, index),
-            LessElement {
-                to,
-                scalars,
-                objects,
-                other,
-                other_objects,
-                kind,
-            } => self.less_element(to, (scalars, objects), (other, other_objects), kind),
-            ListFind {
-                to,
-                list,
-                scalars,
-                objects,
-                kind,
-            } => self.list_find(to, list, scalars, objects, kind),
-            ListAppend { list, from } => self.list_append(list, from),
-            ListReverse { list } => self.list_reverse(list),
-            ListSort { list, kind } => self.list_sort(list, kind),
-            ListSortBy { list, keys, kind } => self.list_sort_by(list, keys, kind),
-            ListSlice { list, first, last } => self.list_slice(list, first, last),
-            SumInt { to, list } => self.sum_int(to, list),
-            SumFloat { to, list } => self.sum_float(to, list),
-            ListOfSet { to, set, .. } => {
-                let list = self.read(set)?.clone();
-                self.share(to, list)
-            }
-            SetOfList { to, list, kind } => self.set_of_list(to, list, kind),
+                ListGet => list_get(list, index, scalars, objects),
+                ListSet => list_set(list, index, scalars, objects),
+                ListAdd => list_add(list, scalars, objects, kind),
+                ListInsert => list_insert(list, index, scalars, objects, kind),
+                ListRemoveAt => list_remove_at(list, index),
+                ListFind => list_find(to, list, scalars, objects, kind),
+                ListAppend => list_append(list, from),
+                ListReverse => list_reverse(list),
+                ListSort => list_sort(list, kind),
+                ListSortBy => list_sort_by(list, keys, kind),
+                ListSlice => list_slice(list, first, last),
+                SumInt => sum_int(to, list),
+                SumFloat => sum_float(to, list),
+                SetOfList => set_of_list(to, list, kind),
 
-            SetAdd {
-                set,
-                scalars,
-                objects,
-                kind,
-            } => self.set_add(set, scalars, objects, kind),
-            SetRemove {
-                set,
-                scalars,
-                objects,
-                kind,
-            } => self.set_remove(set, scalars, objects, kind),
-            SetContains {
-                to,
-                set,
-                scalars,
-                objects,
-                kind,
-            } => self.set_contains(to, set, scalars, objects, kind),
-            SetUnite { set, from, kind } => self.set_merge(set, from, kind, [true, true, true]),
-            SetIntersect { set, from, kind } => {
-                self.set_merge(set, from, kind, [false, true, false])
-            }
-            SetSubtract { set, from, kind } => {
-                self.set_merge(set, from, kind, [true, false, false])
-            }
+                SetAdd => set_add(set, scalars, objects, kind),
+                SetRemove => set_remove(set, scalars, objects, kind),
+                SetContains => set_contains(to, set, scalars, objects, kind),
 
-            MapPut {
-                map,
-                scalars,
-                objects,
-                kind,
-            } => self.map_put(map, scalars, objects, kind),
-            MapGet {
-                map,
-                scalars,
-                objects,
-                to,
-                to_objects,
-                kind,
-            } => self.map_get(map, (scalars, objects), (to, to_objects), kind),
-            MapAt {
-                map,
-                scalars,
-                objects,
-                to,
-                to_objects,
-                kind,
-            } => self.map_at(map, (scalars, objects), (to, to_objects), kind),
-            MapContains {
-                to,
-                map,
-                scalars,
-                objects,
-                kind,
-            } => self.map_contains(to, map, scalars, objects, kind),
-            MapRemove {
-                map,
-                scalars,
-                objects,
-                kind,
-            } => self.map_remove(map, scalars, objects, kind),
-            MapEntry {
-                map,
-                index,
-                scalars,
-                objects,
-            } => self.map_entry(map, index, scalars, objects),
-            MapKeys { to, map, .. } => {
-                let keys = self.read(map)?.map().map(|map| map.keys().clone());
-                self.share(to, keys.unwrap_or_default())
-            }
-            MapValues { to, map, .. } => {
-                let values = self.read(map)?.map().map(|map| map.values().clone());
-                self.share(to, values.unwrap_or_default())
-            }
+                MapPut => map_put(map, scalars, objects, kind),
+                MapContains => map_contains(to, map, scalars, objects, kind),
+                MapRemove => map_remove(map, scalars, objects, kind),
+                MapEntry => map_entry(map, index, scalars, objects),
 
-            Circle { to, center, radius } => self.circle(to, center.0, radius),
-            Polygon { to, corners } => self.polygon(to, corners),
-            AreaContains { to, area, point } => self.area_contains(to, area, point.0),
-            _ => Err(Fault::Malformed), // the loop executes all others
+                Polygon => polygon(to, corners),
+            } else {
+                CopyObject { to, from } => {
+                    let object = self.read(from)?.clone();
+                    self.share(to, object)
+                }
+                MoveObject { to, from } => {
+                    let object = core::mem::take(self.place(from.0)?);
+                    *self.place(to.0)? = object;
+                    Ok(0)
+                }
+                ClearObject { to, .. } => {
+                    *self.place(to.0)? = Object::EMPTY;
+                    Ok(0)
+                }
+                LoadObject { to, variable } => {
+                    let object = self.state.get(variable.0 as usize).cloned();
+                    self.share(to, object.ok_or(Fault::Malformed)?)
+                }
+                StoreObject { variable, from } => {
+                    let object = core::mem::take(self.place(from.0)?);
+                    let place = self.state.get_mut(variable.0 as usize);
+                    *place.ok_or(Fault::Malformed)? = object;
+                    Ok(0)
+                }
+                EqualObject {
+                    to,
+                    left,
+                    right,
+                    kind,
+                } => self.compare(to, left, right, kind, Ordering::is_eq),
+                LessObject {
+                    to,
+                    left,
+                    right,
+                    kind,
+                } => self.compare(to, left, right, kind, Ordering::is_lt),
+                LessElement {
+                    to,
+                    scalars,
+                    objects,
+                    other,
+                    other_objects,
+                    kind,
+                } => self.less_element(to, (scalars, objects), (other, other_objects), kind),
+                ListOfSet { to, set, .. } => {
+                    let list = self.read(set)?.clone();
+                    self.share(to, list)
+                }
+                SetUnite { set, from, kind } => self.set_merge(set, from, kind, [true, true, true]),
+                SetIntersect { set, from, kind } => {
+                    self.set_merge(set, from, kind, [false, true, false])
+                }
+                SetSubtract { set, from, kind } => {
+                    self.set_merge(set, from, kind, [true, false, false])
+                }
+                MapGet {
+                    map,
+                    scalars,
+                    objects,
+                    to,
+                    to_objects,
+                    kind,
+                } => self.map_get(map, (scalars, objects), (to, to_objects), kind),
+                MapAt {
+                    map,
+                    scalars,
+                    objects,
+                    to,
+                    to_objects,
+                    kind,
+                } => self.map_at(map, (scalars, objects), (to, to_objects), kind),
+                MapKeys { to, map, .. } => {
+                    let keys = self.read(map)?.map().map(|map| map.keys().clone());
+                    self.share(to, keys.unwrap_or_default())
+                }
+                MapValues { to, map, .. } => {
+                    let values = self.read(map)?.map().map(|map| map.values().clone());
+                    self.share(to, values.unwrap_or_default())
+                }
+                Circle { to, center, radius } => self.circle(to, center.0, radius),
+                AreaContains { to, area, point } => self.area_contains(to, area, point.0),
+                _ => Err(Fault::Malformed), // the loop executes all others
+            }
         }
     }
 

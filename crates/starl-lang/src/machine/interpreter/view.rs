@@ -44,6 +44,18 @@ pub(in crate::machine) fn shift(bytes: usize) -> u64 {
     (bytes / 64) as u64
 }
 
+/// Writes scalars to registers from this one on.
+#[inline]
+pub(in crate::machine) fn write_scalars(
+    registers: &mut Registers,
+    first: usize,
+    scalars: &[u64],
+) -> Result<(), Fault> {
+    let place = registers.get_mut(first..first + scalars.len());
+    place.ok_or(Fault::Malformed)?.copy_from_slice(scalars);
+    Ok(())
+}
+
 /// The object that an operand names.
 #[inline]
 pub(in crate::machine) fn object_at<'a>(

@@ -3,6 +3,7 @@
 use super::flow::{Broken, Context};
 use super::rules::{WRONG_TYPE, same};
 use crate::machine::instruction::Instruction;
+use crate::machine::operand::{ObjectIn, ObjectInOut};
 use crate::machine::types::{Layout, ObjectType, Parts, Type};
 
 impl Context<'_> {
@@ -31,30 +32,26 @@ impl Context<'_> {
                 self.reads_block(scalars.0, objects.0, &parts.element)
             }
             ListAdd {
-                list,
+                list: ObjectInOut(list),
                 scalars,
                 objects,
                 kind,
             }
             | ListInsert {
-                list,
+                list: ObjectInOut(list),
                 scalars,
                 objects,
                 kind,
                 ..
-            } => {
-                same(self.object(list.0)?, kind.0)?;
-                let parts = self.list_parts(kind.0)?;
-                self.reads_block(scalars.0, objects.0, &parts.element)
             }
-            ListFind {
-                list,
+            | ListFind {
+                list: ObjectIn(list),
                 scalars,
                 objects,
                 kind,
                 ..
             } => {
-                same(self.object(list.0)?, kind.0)?;
+                same(self.object(list)?, kind.0)?;
                 let parts = self.list_parts(kind.0)?;
                 self.reads_block(scalars.0, objects.0, &parts.element)
             }
@@ -87,8 +84,8 @@ impl Context<'_> {
                 same(self.object(keys.0)?, kind.0)?;
                 self.list_parts(kind.0).map(|_| ())
             }
-            SumInt { list, .. } => self.is_list_of(list.0, &Type::Int),
-            SumFloat { list, .. } => self.is_list_of(list.0, &Type::Float),
+            SumInt { list, .. } => self.is(list.0, &ObjectType::List(Type::Int)),
+            SumFloat { list, .. } => self.is(list.0, &ObjectType::List(Type::Float)),
             ListOfSet { to, set, kind } => {
                 let from = self.object(set.0)?;
                 self.alike(self.set_parts(from)?, self.list_parts(kind.0)?)?;
@@ -100,29 +97,25 @@ impl Context<'_> {
                 self.write_object(to.0, kind.0)
             }
             SetAdd {
-                set,
+                set: ObjectInOut(set),
                 scalars,
                 objects,
                 kind,
             }
             | SetRemove {
-                set,
+                set: ObjectInOut(set),
                 scalars,
                 objects,
                 kind,
-            } => {
-                same(self.object(set.0)?, kind.0)?;
-                let parts = self.set_parts(kind.0)?;
-                self.reads_block(scalars.0, objects.0, &parts.element)
             }
-            SetContains {
-                set,
+            | SetContains {
+                set: ObjectIn(set),
                 scalars,
                 objects,
                 kind,
                 ..
             } => {
-                same(self.object(set.0)?, kind.0)?;
+                same(self.object(set)?, kind.0)?;
                 let parts = self.set_parts(kind.0)?;
                 self.reads_block(scalars.0, objects.0, &parts.element)
             }
@@ -161,10 +154,8 @@ impl Context<'_> {
                 let parts = self.map_parts(map.0, kind.0)?;
                 self.reads_block(scalars.0, objects.0, &parts.element)?;
                 self.writes(to.0, 1)?;
-                let value = match to.0.checked_add(1) {
-                    Some(value) => value,
-                    None => return Err("a register is beyond those that the function has"),
-                };
+                let value = to.0.checked_add(1);
+                let value = value.ok_or("a register is beyond those that the function has")?;
                 self.writes_block(value, to_objects.0, &parts.value)
             }
             MapAt {
@@ -180,22 +171,19 @@ impl Context<'_> {
                 self.writes_block(to.0, to_objects.0, &parts.value)
             }
             MapContains {
-                map,
+                map: ObjectIn(map),
                 scalars,
                 objects,
                 kind,
                 ..
-            } => {
-                let parts = self.map_parts(map.0, kind.0)?;
-                self.reads_block(scalars.0, objects.0, &parts.element)
             }
-            MapRemove {
-                map,
+            | MapRemove {
+                map: ObjectInOut(map),
                 scalars,
                 objects,
                 kind,
             } => {
-                let parts = self.map_parts(map.0, kind.0)?;
+                let parts = self.map_parts(map, kind.0)?;
                 self.reads_block(scalars.0, objects.0, &parts.element)
             }
             MapEntry {
@@ -223,13 +211,6 @@ impl Context<'_> {
                 self.write_object(to.0, kind.0)
             }
             _ => Ok(()), // its operands say it all
-        }
-    }
-
-    fn is_list_of(&self, operand: u8, element: &Type) -> Result<(), Broken> {
-        match self.kind(self.object(operand)?)? {
-            ObjectType::List(kind) if kind == element => Ok(()),
-            _ => Err(WRONG_TYPE),
         }
     }
 }

@@ -3,19 +3,22 @@
 use super::flow::{Broken, Context};
 use super::rules::{WRONG_TYPE, exists, same};
 use crate::machine::instruction::Instruction;
-use crate::machine::operand::Format;
+use crate::machine::operand::{Format, ObjectIn, ObjectInOut};
 use crate::machine::types::{ObjectType, Type};
 
 impl Context<'_> {
     pub fn particular_to_objects(&mut self, instruction: &Instruction) -> Result<(), Broken> {
         use Instruction::*;
         match *instruction {
-            CopyObject { to, from } => {
-                let kind = self.object(from.0)?;
-                self.write_object(to.0, kind)
+            CopyObject {
+                to,
+                from: ObjectIn(from),
             }
-            MoveObject { to, from } => {
-                let kind = self.object(from.0)?;
+            | MoveObject {
+                to,
+                from: ObjectInOut(from),
+            } => {
+                let kind = self.object(from)?;
                 self.write_object(to.0, kind)
             }
             ClearObject { to, kind } => {
@@ -46,36 +49,37 @@ impl Context<'_> {
             Text { to, constant } => {
                 let texts = &self.bytecode.texts;
                 exists(texts.get(constant.0 as usize), "there is no such text")?;
-                let text = self.find(&ObjectType::Text)?;
-                self.write_object(to.0, text)
+                self.write_new(to.0, &ObjectType::Text)
             }
             AppendText { text, from } | AppendQuoted { text, from } => {
-                self.is_text(text.0)?;
-                self.is_text(from.0)
+                self.is(text.0, &ObjectType::Text)?;
+                self.is(from.0, &ObjectType::Text)
             }
             AppendObject { text, from, kind } => {
                 same(self.object(from.0)?, kind.0)?;
-                self.is_text(text.0)
+                self.is(text.0, &ObjectType::Text)
             }
-            AppendScalar { text, .. } | AppendPoint { text, .. } => self.is_text(text.0),
+            AppendScalar { text, .. } | AppendPoint { text, .. } => {
+                self.is(text.0, &ObjectType::Text)
+            }
             AppendVariant { text, of, .. } => {
                 let enums = &self.bytecode.enums;
                 exists(enums.get(usize::from(of.0)), "there is no such enum")?;
-                self.is_text(text.0)
+                self.is(text.0, &ObjectType::Text)
             }
             ContainsText { text, part, .. } | MatchText { text, part, .. } => {
-                self.is_text(text.0)?;
-                self.is_text(part.0)
+                self.is(text.0, &ObjectType::Text)?;
+                self.is(part.0, &ObjectType::Text)
             }
             ChangeText { to, text, .. } => {
-                self.is_text(text.0)?;
-                self.write_text(to.0)
+                self.is(text.0, &ObjectType::Text)?;
+                self.write_new(to.0, &ObjectType::Text)
             }
             ReplaceText { to, text, part, by } => {
-                self.is_text(text.0)?;
-                self.is_text(part.0)?;
-                self.is_text(by.0)?;
-                self.write_text(to.0)
+                self.is(text.0, &ObjectType::Text)?;
+                self.is(part.0, &ObjectType::Text)?;
+                self.is(by.0, &ObjectType::Text)?;
+                self.write_new(to.0, &ObjectType::Text)
             }
             JoinTexts {
                 to,
@@ -83,11 +87,11 @@ impl Context<'_> {
                 separator,
             } => {
                 self.is_list_of_texts(self.object(list.0)?)?;
-                self.is_text(separator.0)?;
-                self.write_text(to.0)
+                self.is(separator.0, &ObjectType::Text)?;
+                self.write_new(to.0, &ObjectType::Text)
             }
             NumberOfText { text, format, .. } => match format {
-                Format::Int | Format::Float => self.is_text(text.0),
+                Format::Int | Format::Float => self.is(text.0, &ObjectType::Text),
                 _ => Err(WRONG_TYPE),
             },
             SplitText {
@@ -96,34 +100,25 @@ impl Context<'_> {
                 separator,
                 kind,
             } => {
-                self.is_text(text.0)?;
-                self.is_text(separator.0)?;
+                self.is(text.0, &ObjectType::Text)?;
+                self.is(separator.0, &ObjectType::Text)?;
                 self.is_list_of_texts(kind.0)?;
                 self.write_object(to.0, kind.0)
             }
-            Circle { to, .. } => {
-                let area = self.find(&ObjectType::Area)?;
-                self.write_object(to.0, area)
-            }
+            Circle { to, .. } => self.write_new(to.0, &ObjectType::Area),
             Polygon { to, corners } => {
-                match self.kind(self.object(corners.0)?)? {
-                    ObjectType::List(Type::Point) => {}
-                    _ => return Err(WRONG_TYPE),
-                }
-                let area = self.find(&ObjectType::Area)?;
-                self.write_object(to.0, area)
+                self.is(corners.0, &ObjectType::List(Type::Point))?;
+                self.write_new(to.0, &ObjectType::Area)
             }
-            AreaContains { area, .. } => match self.kind(self.object(area.0)?)? {
-                ObjectType::Area => Ok(()),
-                _ => Err(WRONG_TYPE),
-            },
+            AreaContains { area, .. } => self.is(area.0, &ObjectType::Area),
             _ => self.particular_to_collections(instruction),
         }
     }
 
-    fn write_text(&mut self, operand: u8) -> Result<(), Broken> {
-        let text = self.find(&ObjectType::Text)?;
-        self.write_object(operand, text)
+    /// An operand becomes an object of a type that is there once.
+    fn write_new(&mut self, operand: u8, object: &ObjectType) -> Result<(), Broken> {
+        let kind = self.find(object)?;
+        self.write_object(operand, kind)
     }
 
     fn is_list_of_texts(&self, kind: u16) -> Result<(), Broken> {
@@ -132,13 +127,6 @@ impl Context<'_> {
         match parts.element.scalars.is_empty() && parts.element.objects == [text] {
             true => Ok(()),
             false => Err(WRONG_TYPE),
-        }
-    }
-
-    fn is_text(&self, operand: u8) -> Result<(), Broken> {
-        match self.kind(self.object(operand)?)? {
-            ObjectType::Text => Ok(()),
-            _ => Err(WRONG_TYPE),
         }
     }
 }

@@ -237,6 +237,14 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// An operand is an object of this type.
+    pub fn is(&self, operand: u8, object: &ObjectType) -> Result<(), Broken> {
+        match self.kind(self.object(operand)?)? == object {
+            true => Ok(()),
+            false => Err(WRONG_TYPE),
+        }
+    }
+
     pub fn alike(&self, left: &Parts, right: &Parts) -> Result<(), Broken> {
         match left == right {
             true => Ok(()),
