@@ -131,6 +131,12 @@ impl HostCall<'_> {
         self.set_scalar(index, u64::from(value));
     }
 
+    /// Writes an optional of one scalar from this register on.
+    pub fn set_optional(&mut self, index: usize, value: Option<u64>) {
+        self.set_bool(index, value.is_some());
+        self.set_scalar(index + 1, value.unwrap_or(0));
+    }
+
     /// Writes an Int result.
     pub fn set_int(&mut self, index: usize, value: i64) {
         self.set_scalar(index, value as u64);

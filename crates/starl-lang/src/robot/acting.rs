@@ -9,8 +9,9 @@ use super::failure::Failure;
 use super::host::RobotHost;
 use super::program::{Part, Phase, RobotProgram, Waiting};
 use super::reports::MOST_WAITING;
+use super::services::Services;
 use super::workbench::Workbench;
-use crate::machine::{Limits, Machine};
+use crate::machine::{Limits, Machine, RuntimeError};
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -58,33 +59,42 @@ impl RobotProgram {
         action: u32,
         values: Values,
     ) -> Result<Option<(Values, Script)>, Failure> {
-        let code = &self.code;
-        let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
         let mut services = self.services.clone();
-        if let (Some(atomic), Some(group)) = (&mut services.atomic, code.groups().of_action(action))
-        {
+        let group = self.code.groups().of_action(action);
+        if let (Some(atomic), Some(group)) = (&mut services.atomic, group) {
             atomic.open(group, values);
         }
+        let noted = Script::Noted(Vec::new());
+        let (fires, script) = self.on_copy(robot, &mut services, noted, |machine| {
+            machine.action(action)
+        });
+        let atomic = services.atomic.filter(|_| fires == Ok(true));
+        fires?;
+        Ok(atomic.map(|mut atomic| (atomic.take_values(), script.follow())))
+    }
+
+    /// Runs a part of the program on a copy of it, which shares only these services. Returns its result and the calls
+    /// that the script has noted.
+    pub(super) fn on_copy<T>(
+        &self,
+        robot: &mut Robot<'_>,
+        services: &mut Services,
+        script: Script,
+        run: impl FnOnce(&mut Machine<'_>) -> Result<T, RuntimeError>,
+    ) -> (Result<T, Failure>, Script) {
+        let code = &self.code;
+        let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
         robot.rehearse(|robot| {
             let Workbench { workspace, memo } = &mut Workbench::default();
-            let mut host = RobotHost {
-                context: Context::new(code, robot, memo, &mut services),
-                bound: &mut bound,
-                failure: None,
-                has_fired: false,
-                script: Script::Noted(Vec::new()),
-            };
+            let context = Context::new(code, robot, memo, services);
+            let mut host = RobotHost::new(context, &mut bound, script);
             let (program, limits) = (code.program(), Limits::default());
-            let result =
-                Machine::new(program, &mut state, workspace, &mut host, limits).action(action);
+            let result = run(&mut Machine::new(
+                program, &mut state, workspace, &mut host, limits,
+            ));
             let (failure, script) = (host.failure, host.script);
-            match result {
-                Ok(true) => Ok(services
-                    .atomic
-                    .map(|mut atomic| (atomic.take_values(), script.follow()))),
-                Ok(false) => Ok(None),
-                Err(error) => Err(failure.unwrap_or_else(|| code.describe(&error))),
-            }
+            let result = result.map_err(|error| failure.unwrap_or_else(|| code.describe(&error)));
+            (result, script)
         })
     }
 

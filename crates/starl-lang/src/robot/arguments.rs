@@ -51,27 +51,22 @@ impl<'a> Arguments<'a> {
         block.first().copied().unwrap_or(0)
     }
 
-    /// A Bool.
     pub fn bool(&mut self) -> bool {
         self.scalar() != 0
     }
 
-    /// An Int.
     pub fn int(&mut self) -> i64 {
         self.scalar() as i64
     }
 
-    /// A Float.
     pub fn float(&mut self) -> f64 {
         f64::from_bits(self.scalar())
     }
 
-    /// A Duration.
     pub fn duration(&mut self) -> Duration {
         Duration(self.scalar())
     }
 
-    /// A robot.
     pub fn robot(&mut self) -> RobotId {
         RobotId(self.scalar() as u32)
     }
@@ -110,7 +105,6 @@ impl<'a> Arguments<'a> {
         block.first().unwrap_or(EMPTY)
     }
 
-    /// A text.
     pub fn text(&mut self) -> &'a str {
         self.object().text()
     }
@@ -125,6 +119,28 @@ impl<'a> Arguments<'a> {
         match self.object().body() {
             Some(Body::Obstacles(obstacles)) => obstacles.clone(),
             _ => [].into(),
+        }
+    }
+
+    /// A Duration, or this one if none is given.
+    pub fn duration_or(&mut self, default: Duration) -> Duration {
+        self.optional(Arguments::duration).unwrap_or(default)
+    }
+
+    /// A variant of an enum whose variants stand for these values, or this value if none is given. `what` is the enum
+    /// in an error.
+    pub fn choice<T: Copy>(
+        &mut self,
+        what: &str,
+        variants: &[(&str, T)],
+        default: T,
+    ) -> Result<T, Cow<'static, str>> {
+        match self.optional(Arguments::int) {
+            None => Ok(default),
+            Some(number) => match variants.get(number as usize) {
+                Some((_, value)) => Ok(*value),
+                None => Err(alloc::format!("there is no such {what}").into()),
+            },
         }
     }
 

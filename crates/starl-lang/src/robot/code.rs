@@ -99,12 +99,6 @@ impl Code {
         actions.partition_point(|action| action.is_check) as u32
     }
 
-    /// Whether an action waits for a time.
-    pub(super) fn is_timed(&self) -> bool {
-        let mut actions = self.program().bytecode().actions.iter();
-        actions.any(Action::is_timed)
-    }
-
     /// Where a check is written, e.g. `race.starl:12:7`.
     pub(super) fn place_of_check(&self, action: u32) -> Option<String> {
         let bytecode = self.program().bytecode();

@@ -11,7 +11,6 @@ use starl_core::{Payload, Robot};
 
 /// The context of host functions.
 pub struct Context<'a, 'r> {
-    /// The program.
     pub code: &'a Code,
     /// The robot that runs it.
     pub robot: &'a mut Robot<'r>,

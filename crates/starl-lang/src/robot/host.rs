@@ -7,9 +7,7 @@ use super::primitives::Slot;
 
 /// A robot as the machine sees it.
 pub struct RobotHost<'a, 'r> {
-    /// The context of functions.
     pub context: Context<'a, 'r>,
-    /// The bound primitives.
     pub bound: &'a mut [Slot],
     /// Why the program cannot continue, once it has said so.
     pub failure: Option<Failure>,
@@ -17,4 +15,21 @@ pub struct RobotHost<'a, 'r> {
     pub has_fired: bool,
     /// The treatment of calls.
     pub script: Script,
+}
+
+impl<'a, 'r> RobotHost<'a, 'r> {
+    /// A host on which nothing has happened.
+    pub fn new(
+        context: Context<'a, 'r>,
+        bound: &'a mut [Slot],
+        script: Script,
+    ) -> RobotHost<'a, 'r> {
+        RobotHost {
+            context,
+            bound,
+            failure: None,
+            has_fired: false,
+            script,
+        }
+    }
 }

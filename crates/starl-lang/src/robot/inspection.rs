@@ -1,14 +1,11 @@
 //! Inspects a program that runs on a robot, without changing it: for observers and debuggers.
 
 use super::atomic::Script;
-use super::context::Context;
 use super::failure::Failure;
-use super::host::RobotHost;
 use super::primitives::KINDS;
 use super::program::{Phase, RobotProgram};
 use super::words::type_name;
-use super::workbench::Workbench;
-use crate::machine::{Import, Limits, Machine, Parameter, Type, Value};
+use crate::machine::{Import, Parameter, Type, Value};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -112,30 +109,16 @@ impl RobotProgram {
         if self.phase != Phase::Running {
             return Vec::new();
         }
-        let code = &self.code;
-        let actions = code.program().bytecode().actions.iter();
+        let actions = self.code.program().bytecode().actions.iter();
         (0..)
             .zip(actions)
             .map(|(number, action)| {
-                let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
-                let mut services = self.services.clone();
-                let enabled = robot.rehearse(|robot| {
-                    let Workbench { workspace, memo } = &mut Workbench::default();
-                    let mut host = RobotHost {
-                        context: Context::new(code, robot, memo, &mut services),
-                        bound: &mut bound,
-                        failure: None,
-                        has_fired: false,
-                        script: Script::None,
-                    };
-                    let (program, limits) = (code.program(), Limits::default());
-                    let machine = Machine::new(program, &mut state, workspace, &mut host, limits);
-                    { machine }.guard(number)
+                let services = &mut self.services.clone();
+                let (enabled, _) = self.on_copy(robot, services, Script::None, |machine| {
+                    machine.guard(number)
                 });
-                ActionState {
-                    name: action.name.clone(),
-                    enabled: enabled.map_err(|error| code.describe(&error)),
-                }
+                let name = action.name.clone();
+                ActionState { name, enabled }
             })
             .collect()
     }

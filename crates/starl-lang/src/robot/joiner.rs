@@ -3,7 +3,7 @@
 use super::builtins::BUILTINS;
 use super::joint::{Joint, OnRobot};
 use super::messages::Outgoing;
-use super::primitives::{Entry, KINDS};
+use super::primitives::KINDS;
 use super::properties::OBSERVABLES;
 use super::shape::{Declared, Shape, Signature};
 use crate::machine::Import;
@@ -39,7 +39,6 @@ impl Joiner {
         }
     }
 
-    /// The types.
     pub fn declared(&self) -> &Declared {
         &self.declared
     }
@@ -92,7 +91,7 @@ impl Joiner {
         let number = number as u16;
         let fits = |signature: &Signature| self.declared.matches(import, signature, 1);
         if member == "bind" {
-            let bind = fits(&bind_signature(entry));
+            let bind = fits(&Signature::effect("bind", entry.constructor, None));
             return (bind.then_some(OnRobot::Bind(number)), 1);
         }
         let mut members = entry.members().enumerate();
@@ -118,15 +117,5 @@ impl Joiner {
             import.labels.first()?,
             record,
         ))
-    }
-}
-
-fn bind_signature(entry: &Entry) -> Signature {
-    Signature {
-        name: "bind",
-        query: false,
-        parameters: entry.constructor,
-        fields: false,
-        result: None,
     }
 }

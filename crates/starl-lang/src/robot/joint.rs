@@ -27,7 +27,6 @@ pub enum OnRobot {
     Bind(u16),
     /// It is a member of a kind.
     Member {
-        /// The kind.
         kind: u16,
         /// The number of the member.
         member: u16,

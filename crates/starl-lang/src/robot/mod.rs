@@ -5,9 +5,11 @@
 //! program's properties.
 //!
 //! The functions that robots offer are in two tables: the language's built-in names, and kinds of primitives. Both list
-//! the arguments and results of each function, so that loading rejects bytecode that was compiled for other tables. No
-//! input from the network makes a program stop: unknown messages are ignored, and so are orders whose fields do not
-//! fit, with a warning. A run-time error stops the program of this one robot and names the place in its source.
+//! the arguments and results of each function, so that loading rejects bytecode that was compiled for other tables. The
+//! functions take the context of a call and the program; these know functions by their numbers only. Loading, dispatch
+//! and running stand above both. No input from the network makes a program stop: unknown messages are ignored, and so
+//! are orders whose fields do not fit, with a warning. A run-time error stops the program of this one robot and names
+//! the place in its source.
 
 mod acting;
 mod arguments;

@@ -14,6 +14,7 @@ use super::reports::{handle_reports, hold_back};
 use super::rest::Disturbing;
 use super::services::Services;
 use super::stable::Kept;
+use super::words::shortened;
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
@@ -153,13 +154,8 @@ impl RobotProgram {
         self.reports = hold_back(code.instances(), &mut reports, held);
         let mut bench = robot.take_scratch::<Workbench>();
         let Workbench { workspace, memo } = &mut *bench;
-        let mut host = RobotHost {
-            context: Context::new(code, robot, memo, &mut self.services),
-            bound: &mut self.bound,
-            failure: None,
-            has_fired: false,
-            script: part.take_script(),
-        };
+        let context = Context::new(code, robot, memo, &mut self.services);
+        let mut host = RobotHost::new(context, &mut self.bound, part.take_script());
         let is_activation = matches!(part, Part::Actions(_));
         let is_checked = held.is_none() && !matches!(part, Part::Start | Part::Perform(..));
 
@@ -230,13 +226,7 @@ fn values_read(code: &Code, check: u32, state: &State) -> Box<str> {
         return Box::default();
     };
     let values = program.values_where(state, reads(bytecode, action.guard));
-    let values = values.map(|(name, value)| {
-        let text = format!("{name} = {value}");
-        match text.char_indices().nth(LONGEST) {
-            Some((end, _)) => format!("{}...", &text[..end]),
-            None => text,
-        }
-    });
+    let values = values.map(|(name, value)| shortened(format!("{name} = {value}"), LONGEST));
     values.collect::<Vec<_>>().join(", ").into()
 }
 
@@ -463,7 +453,7 @@ impl Program for RobotProgram {
             "{state:?}{bound:?}{services:?}{reports:?}{waiting:?}{phase:?}"
         )
         .and_then(|()| { kept }.try_for_each(|digest| write!(text, "{digest:?}")))
-        .and_then(|()| match self.code.is_timed() {
+        .and_then(|()| match self.code.waits_for_time() {
             true => write!(text, "{paces:?}"),
             false => Ok(()),
         })

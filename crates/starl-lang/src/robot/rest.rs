@@ -31,7 +31,6 @@ pub fn is_steady(bytecode: &Bytecode, joints: &[Joint]) -> bool {
 
 /// A primitive whose inputs end the program's rest.
 pub struct Disturbing<'a> {
-    /// The primitive.
     pub primitive: &'a mut dyn Primitive,
     /// Whether the program rests.
     pub rests: &'a mut bool,

@@ -27,6 +27,12 @@ impl Needs {
         atomic: false,
     };
 
+    /// The detector alone.
+    pub const DETECTOR: Needs = Needs {
+        detector: true,
+        ..Needs::NOTHING
+    };
+
     /// The needs of either.
     pub fn or(self, other: Needs) -> Needs {
         Needs {

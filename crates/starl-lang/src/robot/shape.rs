@@ -13,47 +13,29 @@ use starl_primitives::{election, mutex};
 /// A type that a function of the host takes or gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// `Bool`
     Bool,
-    /// `Int`
     Int,
-    /// `Float`
     Float,
-    /// `Time`
     Time,
-    /// `Duration`
     Duration,
     /// `RobotId`
     Robot,
-    /// `Point`
     Point,
     /// `String`
     Text,
-    /// `Area`
     Area,
-    /// `Obstacles`
     Obstacles,
-    /// The enum `Side` of the prelude.
+    // Enums and records of the prelude.
     Side,
-    /// The enum `Planner` of the prelude.
     Planner,
-    /// The enum `MotionTrouble` of the prelude.
     MotionTrouble,
-    /// The enum `ElectionAlgorithm` of the prelude.
     ElectionAlgorithm,
-    /// The enum `MutexAlgorithm` of the prelude.
     MutexAlgorithm,
-    /// The enum `Order` of the prelude.
     Order,
-    /// The record `Detection` of the prelude.
     Detection,
-    /// The record `Thing` of the prelude.
     Thing,
-    /// A list.
     List(&'static Shape),
-    /// A set.
     Set(&'static Shape),
-    /// A map.
     Map(&'static Shape, &'static Shape),
     /// A value or none.
     Optional(&'static Shape),
@@ -68,7 +50,6 @@ pub enum Shape {
 /// The name, arguments and results of a host function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signature {
-    /// Its name.
     pub name: &'static str,
     /// Whether it changes nothing.
     pub query: bool,
@@ -78,6 +59,35 @@ pub struct Signature {
     pub fields: bool,
     /// The type of its result, if it has one.
     pub result: Option<Shape>,
+}
+
+impl Signature {
+    /// A function that changes nothing and gives a result.
+    pub const fn query(
+        name: &'static str,
+        parameters: &'static [Shape],
+        result: Shape,
+    ) -> Signature {
+        Signature {
+            query: true,
+            ..Signature::effect(name, parameters, Some(result))
+        }
+    }
+
+    /// A function that may change something.
+    pub const fn effect(
+        name: &'static str,
+        parameters: &'static [Shape],
+        result: Option<Shape>,
+    ) -> Signature {
+        Signature {
+            name,
+            query: false,
+            parameters,
+            fields: false,
+            result,
+        }
+    }
 }
 
 /// The sides of a robot, as the prelude has them.

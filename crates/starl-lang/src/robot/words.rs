@@ -1,4 +1,4 @@
-//! Types in words.
+//! Types and values in words.
 
 use crate::machine::{Bytecode, ObjectType, Type, is_tuple};
 use alloc::format;
@@ -36,4 +36,13 @@ pub(super) fn type_name(bytecode: &Bytecode, kind: &Type) -> String {
         },
         plain => plain.to_string(),
     }
+}
+
+/// A text of at most so many characters; a longer one is cut off, and three points show that.
+pub(super) fn shortened(mut text: String, most: usize) -> String {
+    if let Some((end, _)) = text.char_indices().nth(most) {
+        text.truncate(end);
+        text += "...";
+    }
+    text
 }

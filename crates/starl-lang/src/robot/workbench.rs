@@ -10,9 +10,7 @@ use starl_core::{Point, RobotId, WayPoint};
 /// Registers, and values that were made before.
 #[derive(Clone, Default)]
 pub struct Workbench {
-    /// Registers.
     pub workspace: Workspace,
-    /// Values.
     pub memo: Memo,
 }
 

@@ -10,7 +10,11 @@ pub use sensing::{name_of, way_point, way_point_group};
 use super::arguments::{Arguments, Called};
 use super::host::RobotHost;
 use super::primitives::give;
-use super::shape::{Shape, Signature};
+use super::shape::Shape::{
+    self, Any, Area, Bool, Detection, Float, Int, List, Obstacles, Optional, Point, Robot, Set,
+    Side, Text, Thing, Time,
+};
+use super::shape::Signature;
 use super::stable;
 use crate::machine::HostCall;
 use starl_core::Command;
@@ -36,15 +40,8 @@ const fn query(
     result: Shape,
     run: Run,
 ) -> Builtin {
-    let signature = Signature {
-        name,
-        query: true,
-        parameters,
-        fields: false,
-        result: Some(result),
-    };
     Builtin {
-        signature,
+        signature: Signature::query(name, parameters, result),
         is_steady: false,
         run,
     }
@@ -57,9 +54,10 @@ const fn steady(
     result: Shape,
     run: Run,
 ) -> Builtin {
-    let mut builtin = query(name, parameters, result, run);
-    builtin.is_steady = true;
-    builtin
+    Builtin {
+        is_steady: true,
+        ..query(name, parameters, result, run)
+    }
 }
 
 /// One that does something.
@@ -69,15 +67,8 @@ const fn effect(
     result: Option<Shape>,
     run: Run,
 ) -> Builtin {
-    let signature = Signature {
-        name,
-        query: false,
-        parameters,
-        fields: false,
-        result,
-    };
     Builtin {
-        signature,
+        signature: Signature::effect(name, parameters, result),
         is_steady: false,
         run,
     }
@@ -85,190 +76,115 @@ const fn effect(
 
 /// All of them, in the order of the language's table.
 pub static BUILTINS: &[Builtin] = &[
-    steady("me", &[], Shape::Robot, |host, call| {
+    steady("me", &[], Robot, |host, call| {
         call.set_robot(0, host.context.robot.id());
         Ok(0)
     }),
-    query("position", &[], Shape::Point, |host, call| {
+    query("position", &[], Point, |host, call| {
         call.set_point(0, host.context.robot.position());
         Ok(0)
     }),
-    query("heading", &[], Shape::Float, |host, call| {
+    query("heading", &[], Float, |host, call| {
         call.set_float(0, host.context.robot.heading());
         Ok(0)
     }),
-    query("velocity", &[], Shape::Point, |host, call| {
+    query("velocity", &[], Point, |host, call| {
         call.set_point(0, host.context.robot.velocity());
         Ok(0)
     }),
-    query("now", &[], Shape::Time, |host, call| {
+    query("now", &[], Time, |host, call| {
         call.set_nanoseconds(0, host.context.robot.now().0);
         Ok(0)
     }),
-    query("peers", &[], Shape::Set(&Shape::Robot), |host, call| {
+    query("peers", &[], Set(&Robot), |host, call| {
         let fleet = host.context.robot.fleet();
         call.set_object(0, host.context.memo.fleet(fleet));
         Ok(0)
     }),
-    steady(
-        "robot_name",
-        &[Shape::Robot],
-        Shape::Text,
-        sensing::robot_name,
-    ),
-    query(
-        "bumped",
-        &[],
-        Shape::Optional(&Shape::Side),
-        sensing::bumped,
-    ),
-    query("ranges", &[], Shape::List(&Shape::Float), sensing::ranges),
-    query(
-        "detected",
-        &[],
-        Shape::List(&Shape::Detection),
-        sensing::detected,
-    ),
-    query("things", &[], Shape::List(&Shape::Thing), sensing::things),
-    query(
-        "holding",
-        &[],
-        Shape::Optional(&Shape::Int),
-        |host, call| {
-            let held = host.context.robot.sensors().holding;
-            call.set_bool(0, held.is_some());
-            call.set_int(1, held.map_or(0, i64::from));
-            Ok(0)
-        },
-    ),
-    query(
-        "thing_name",
-        &[Shape::Int],
-        Shape::Text,
-        sensing::thing_name,
-    ),
-    query("atomic_blocked", &[], Shape::Bool, |host, call| {
+    steady("robot_name", &[Robot], Text, sensing::robot_name),
+    query("bumped", &[], Optional(&Side), sensing::bumped),
+    query("ranges", &[], List(&Float), sensing::ranges),
+    query("detected", &[], List(&Detection), sensing::detected),
+    query("things", &[], List(&Thing), sensing::things),
+    query("holding", &[], Optional(&Int), |host, call| {
+        call.set_optional(0, host.context.robot.sensors().holding.map(u64::from));
+        Ok(0)
+    }),
+    query("thing_name", &[Int], Text, sensing::thing_name),
+    query("atomic_blocked", &[], Bool, |host, call| {
         let atomic = host.context.services.atomic.as_ref();
         call.set_bool(0, atomic.is_some_and(|atomic| atomic.is_blocked()));
         Ok(0)
     }),
-    steady(
-        "way_points",
-        &[],
-        Shape::List(&Shape::Point),
-        |host, call| {
-            let way_points = host.context.robot.way_points();
-            call.set_object(0, host.context.memo.way_points(way_points));
-            Ok(0)
-        },
-    ),
-    steady(
-        "way_point",
-        &[Shape::Text],
-        Shape::Optional(&Shape::Point),
-        |host, call| {
-            let way_points = host.context.robot.way_points();
-            Ok(way_point(way_points, call))
-        },
-    ),
-    steady(
-        "way_point_group",
-        &[Shape::Int],
-        Shape::List(&Shape::Point),
-        |host, call| {
-            let way_points = host.context.robot.way_points();
-            Ok(way_point_group(way_points, call))
-        },
-    ),
-    query("obstacles", &[], Shape::Obstacles, |host, call| {
+    steady("way_points", &[], List(&Point), |host, call| {
+        let way_points = host.context.robot.way_points();
+        call.set_object(0, host.context.memo.way_points(way_points));
+        Ok(0)
+    }),
+    steady("way_point", &[Text], Optional(&Point), |host, call| {
+        let way_points = host.context.robot.way_points();
+        Ok(way_point(way_points, call))
+    }),
+    steady("way_point_group", &[Int], List(&Point), |host, call| {
+        let way_points = host.context.robot.way_points();
+        Ok(way_point_group(way_points, call))
+    }),
+    query("obstacles", &[], Obstacles, |host, call| {
         call.set_object(0, host.context.robot.obstacles().into());
         Ok(0)
     }),
-    steady(
-        "areas_of",
-        &[Shape::Obstacles],
-        Shape::List(&Shape::Area),
-        sensing::areas_of,
-    ),
+    steady("areas_of", &[Obstacles], List(&Area), sensing::areas_of),
     steady(
         "with_area",
-        &[Shape::Obstacles, Shape::Area],
-        Shape::Obstacles,
+        &[Obstacles, Area],
+        Obstacles,
         sensing::with_area,
     ),
-    effect(
-        "random",
-        &[Shape::Float, Shape::Float],
-        Some(Shape::Float),
-        |host, call| {
-            let mut arguments = Arguments::of(call);
-            let (low, high) = (arguments.float(), arguments.float());
-            let number = host.context.robot.random().between(low, high);
-            // Rounding may give `high` itself.
-            call.set_float(0, if number < high { number } else { low });
-            Ok(0)
-        },
-    ),
-    effect(
-        "random_int",
-        &[Shape::Int, Shape::Int],
-        Some(Shape::Int),
-        |host, call| {
-            let mut arguments = Arguments::of(call);
-            let (low, high) = (arguments.int(), arguments.int());
-            if low >= high {
-                return Err(alloc::format!("no Int is from {low} to below {high}").into());
-            }
-            let random = host.context.robot.random();
-            let span = high.wrapping_sub(low) as u64;
-            let offset = (u128::from(random.word()) * u128::from(span)) >> 64;
-            call.set_int(0, low.wrapping_add(offset as i64));
-            Ok(0)
-        },
-    ),
+    effect("random", &[Float, Float], Some(Float), |host, call| {
+        let mut arguments = Arguments::of(call);
+        let (low, high) = (arguments.float(), arguments.float());
+        let number = host.context.robot.random().between(low, high);
+        // Rounding may give `high` itself.
+        call.set_float(0, if number < high { number } else { low });
+        Ok(0)
+    }),
+    effect("random_int", &[Int, Int], Some(Int), |host, call| {
+        let mut arguments = Arguments::of(call);
+        let (low, high) = (arguments.int(), arguments.int());
+        if low >= high {
+            return Err(alloc::format!("no Int is from {low} to below {high}").into());
+        }
+        let random = host.context.robot.random();
+        let span = high.wrapping_sub(low) as u64;
+        let offset = (u128::from(random.word()) * u128::from(span)) >> 64;
+        call.set_int(0, low.wrapping_add(offset as i64));
+        Ok(0)
+    }),
     Builtin {
         signature: Signature {
-            name: "emit",
-            query: false,
-            parameters: &[Shape::Text],
             fields: true,
-            result: None,
+            ..Signature::effect("emit", &[Text], None)
         },
         is_steady: false,
         run: telling::emit,
     },
-    effect("log", &[Shape::Text], None, telling::log),
-    effect(
-        "draw_point",
-        &[Shape::Text, Shape::Point],
-        None,
-        telling::draw_point,
-    ),
-    effect(
-        "draw_line",
-        &[Shape::Text, Shape::List(&Shape::Point)],
-        None,
-        telling::draw_line,
-    ),
+    effect("log", &[Text], None, telling::log),
+    effect("draw_point", &[Text, Point], None, telling::draw_point),
+    effect("draw_line", &[Text, List(&Point)], None, telling::draw_line),
     effect(
         "draw_circle",
-        &[Shape::Text, Shape::Point, Shape::Float],
+        &[Text, Point, Float],
         None,
         telling::draw_circle,
     ),
-    effect(
-        "draw_text",
-        &[Shape::Text, Shape::Point],
-        None,
-        telling::draw_text,
-    ),
-    effect("draw_nothing", &[Shape::Text], None, telling::draw_nothing),
+    effect("draw_text", &[Text, Point], None, telling::draw_text),
+    effect("draw_nothing", &[Text], None, telling::draw_nothing),
     effect("finish", &[], None, |host, _| {
         host.context.robot.finish();
         Ok(0)
     }),
-    effect("fail", &[Shape::Text], None, telling::fail),
-    effect("take", &[Shape::Int], None, |host, call| {
+    effect("fail", &[Text], None, telling::fail),
+    effect("take", &[Int], None, |host, call| {
         // Numbers beyond these stand for no thing, so that there is nothing to take.
         if let Ok(thing) = u32::try_from(Arguments::of(call).int()) {
             host.context.robot.take(thing);
@@ -287,35 +203,20 @@ pub static BUILTINS: &[Builtin] = &[
         host.context.robot.halt();
         Ok(1)
     }),
-    effect("drive_straight", &[Shape::Float], None, driving::straight),
-    effect("drive_turn", &[Shape::Float], None, driving::turn),
-    effect(
-        "drive_curve",
-        &[Shape::Float, Shape::Float],
-        None,
-        driving::curve,
-    ),
-    effect(
-        "drive_wheels",
-        &[Shape::Float, Shape::Float],
-        None,
-        driving::wheels,
-    ),
-    effect(
-        "drive_car",
-        &[Shape::Float, Shape::Float],
-        None,
-        driving::car,
-    ),
+    effect("drive_straight", &[Float], None, driving::straight),
+    effect("drive_turn", &[Float], None, driving::turn),
+    effect("drive_curve", &[Float, Float], None, driving::curve),
+    effect("drive_wheels", &[Float, Float], None, driving::wheels),
+    effect("drive_car", &[Float, Float], None, driving::car),
     effect(
         "drive_velocity",
-        &[Shape::Point, Shape::Optional(&Shape::Float)],
+        &[Point, Optional(&Float)],
         None,
         driving::velocity,
     ),
     effect(
         "drive_attitude",
-        &[Shape::Float, Shape::Float, Shape::Float, Shape::Float],
+        &[Float, Float, Float, Float],
         None,
         driving::attitude,
     ),
@@ -337,16 +238,11 @@ pub static BUILTINS: &[Builtin] = &[
         Ok(1)
     }),
     // Not in the language's table: the start of a program asks this for each stable variable, by its number.
-    query(
-        "saved",
-        &[Shape::Int],
-        Shape::Optional(&Shape::Any),
-        |host, call| {
-            let variable = Arguments::of(call).int() as usize;
-            let code = host.context.code;
-            let saved = host.context.robot.saved();
-            let value = saved.and_then(|saved| stable::saved(code.stable(), saved, variable));
-            give(code.program(), call, &[value])
-        },
-    ),
+    query("saved", &[Int], Optional(&Any), |host, call| {
+        let variable = Arguments::of(call).int() as usize;
+        let code = host.context.code;
+        let saved = host.context.robot.saved();
+        let value = saved.and_then(|saved| stable::saved(code.stable(), saved, variable));
+        give(code.program(), call, &[value])
+    }),
 ];

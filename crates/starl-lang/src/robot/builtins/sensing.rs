@@ -30,8 +30,7 @@ pub fn bumped(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
         (true, true) => Some(2),
         (false, false) => None,
     });
-    call.set_bool(0, side.is_some());
-    call.set_scalar(1, side.unwrap_or(0));
+    call.set_optional(0, side);
     Ok(0)
 }
 

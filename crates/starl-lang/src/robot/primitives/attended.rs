@@ -15,7 +15,6 @@ use starl_core::{Input, Payload, Port, Primitive, Robot};
 /// A primitive whose reports are collected after each input. If the program handles them the robot delivers an empty
 /// message to itself, so that they are handled immediately.
 pub struct Attended<'a> {
-    /// The primitive.
     pub slot: &'a mut BoundPrimitive,
     /// Where it listens.
     pub port: Port,

@@ -1,6 +1,6 @@
 //! Barrier in programs.
 
-use super::kind::{Kind, Member, method, query};
+use super::kind::{Kind, Member, flag, method};
 use crate::robot::arguments::Arguments;
 use crate::robot::context::Context;
 use crate::robot::instance::Instance;
@@ -24,20 +24,11 @@ impl Kind for Barrier {
             barrier.arrive(context.robot);
             Ok(10)
         }),
-        query("passed", &[], Shape::Bool, |barrier, _, call| {
-            call.set_bool(0, barrier.passed());
-            Ok(0)
-        }),
-        query("failed", &[], Shape::Bool, |barrier, _, call| {
-            call.set_bool(0, barrier.failed());
-            Ok(0)
-        }),
+        flag!("passed", Barrier::passed),
+        flag!("failed", Barrier::failed),
     ];
 
-    const NEEDS: Needs = Needs {
-        detector: true,
-        ..Needs::NOTHING
-    };
+    const NEEDS: Needs = Needs::DETECTOR;
 
     fn bind(
         _: &Instance,

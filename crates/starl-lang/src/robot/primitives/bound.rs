@@ -84,7 +84,6 @@ impl<P: Kind> Bound for P {
 /// A primitive of the program, with the data by which the host skips it when it has no work.
 #[derive(Clone)]
 pub struct BoundPrimitive {
-    /// The primitive.
     pub bound: Box<dyn Bound>,
     /// Where it listens; nowhere, if it has no state machine of its own.
     pub port: Option<Port>,

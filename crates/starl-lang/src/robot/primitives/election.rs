@@ -1,7 +1,6 @@
 //! LeaderElection in programs.
 
-use super::kind::{Event, Kind, Member, Report, method, query};
-use crate::machine::HostCall;
+use super::kind::{Event, Kind, Member, Report, flag, method, query};
 use crate::robot::arguments::Arguments;
 use crate::robot::context::Context;
 use crate::robot::instance::Instance;
@@ -12,7 +11,7 @@ use alloc::format;
 use alloc::vec::Vec;
 use starl_core::{Primitive, Random, Robot};
 use starl_primitives::LeaderElection;
-use starl_primitives::election::{Algorithm, Change, Options};
+use starl_primitives::election::{Change, Options};
 
 impl Kind for LeaderElection {
     const NAME: &'static str = "LeaderElection";
@@ -38,8 +37,8 @@ impl Kind for LeaderElection {
             &[],
             Shape::Optional(&Shape::Robot),
             |election, _, call| {
-                let leader = election.leader().map(|leader| i64::from(leader.0));
-                give(call, leader);
+                let leader = election.leader();
+                call.set_optional(0, leader.map(|leader| leader.0.into()));
                 Ok(0)
             },
         ),
@@ -49,14 +48,11 @@ impl Kind for LeaderElection {
             Shape::Optional(&Shape::Int),
             |election, _, call| {
                 // Epochs have 63 bits.
-                give(call, election.epoch().map(|epoch| epoch as i64));
+                call.set_optional(0, election.epoch());
                 Ok(0)
             },
         ),
-        query("failed", &[], Shape::Bool, |election, _, call| {
-            call.set_bool(0, election.failed());
-            Ok(0)
-        }),
+        flag!("failed", LeaderElection::failed),
     ];
 
     const EVENTS: &'static [Event] = &[
@@ -70,10 +66,7 @@ impl Kind for LeaderElection {
         },
     ];
 
-    const NEEDS: Needs = Needs {
-        detector: true,
-        ..Needs::NOTHING
-    };
+    const NEEDS: Needs = Needs::DETECTOR;
 
     fn bind(
         _: &Instance,
@@ -82,16 +75,10 @@ impl Kind for LeaderElection {
     ) -> Result<LeaderElection, Cow<'static, str>> {
         let name = format!("election/{}", arguments.text());
         let participants = arguments.participants(context.robot).flatten();
-        let algorithm = match arguments.optional(Arguments::int) {
-            None => Algorithm::default(),
-            Some(variant) => {
-                let algorithm = ELECTION_ALGORITHMS.get(variant as usize);
-                algorithm.ok_or("there is no such algorithm")?.1
-            }
-        };
+        let default = Options::default();
         let options = Options {
-            algorithm,
-            ..Options::default()
+            algorithm: arguments.choice("algorithm", &ELECTION_ALGORITHMS, default.algorithm)?,
+            ..default
         };
         Ok(LeaderElection::new(&name, participants, options))
     }
@@ -121,10 +108,4 @@ impl Kind for LeaderElection {
             });
         }
     }
-}
-
-/// Pushes a value or none.
-fn give(call: &mut HostCall<'_>, value: Option<i64>) {
-    call.set_bool(0, value.is_some());
-    call.set_int(1, value.unwrap_or(0));
 }

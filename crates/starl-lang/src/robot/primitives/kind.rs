@@ -22,9 +22,7 @@ pub struct Member<P: 'static> {
 /// Something that a kind of primitive reports.
 #[derive(Debug)]
 pub struct Event {
-    /// Its name.
     pub name: &'static str,
-    /// Its fields.
     pub parameters: &'static [Shape],
 }
 
@@ -43,19 +41,15 @@ pub struct Report {
 /// primitives without work are skipped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attention {
-    /// Position estimates.
     pub estimates: bool,
-    /// Activations.
     pub activations: bool,
 }
 
 impl Attention {
-    /// All of them.
     pub const FULL: Attention = Attention {
         estimates: true,
         activations: true,
     };
-    /// None of them.
     pub const NONE: Attention = Attention {
         estimates: false,
         activations: false,
@@ -73,7 +67,6 @@ impl Attention {
 
 /// A kind of primitive.
 pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
-    /// Its name.
     const NAME: &'static str;
     /// The parameters of its constructor.
     const CONSTRUCTOR: &'static [Shape];
@@ -94,7 +87,9 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     ) -> Result<Self, Cow<'static, str>>;
 
     /// The state machine; none if it has none of its own.
-    fn primitive(&mut self) -> Option<&mut dyn Primitive>;
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        None
+    }
 
     /// Overwrites its state at random, as a transient fault would. State in the program's shared services is
     /// overwritten there.
@@ -134,13 +129,7 @@ pub const fn method<P>(
     result: Option<Shape>,
     run: fn(&mut P, &mut Context<'_, '_>, &mut HostCall<'_>) -> Called,
 ) -> Member<P> {
-    let signature = Signature {
-        name,
-        query: false,
-        parameters,
-        fields: false,
-        result,
-    };
+    let signature = Signature::effect(name, parameters, result);
     Member { signature, run }
 }
 
@@ -151,12 +140,23 @@ pub const fn query<P>(
     result: Shape,
     run: fn(&mut P, &mut Context<'_, '_>, &mut HostCall<'_>) -> Called,
 ) -> Member<P> {
-    let signature = Signature {
-        name,
-        query: true,
-        parameters,
-        fields: false,
-        result: Some(result),
-    };
+    let signature = Signature::query(name, parameters, result);
     Member { signature, run }
 }
+
+/// A flag of this name, which a function of the primitive answers.
+macro_rules! flag {
+    ($name:literal, $ask:path) => {
+        $crate::robot::primitives::kind::query(
+            $name,
+            &[],
+            $crate::robot::shape::Shape::Bool,
+            |primitive, _, call| {
+                call.set_bool(0, $ask(primitive));
+                Ok(0)
+            },
+        )
+    };
+}
+
+pub(super) use flag;

@@ -11,21 +11,15 @@ use crate::robot::shape::{Shape, Signature};
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
 
-/// An entry of the table of kinds.
+/// The declarations of a [`Kind`], for use without its type.
 pub struct Entry {
-    /// The kind's name.
     pub name: &'static str,
-    /// The parameters of its constructor.
     pub constructor: &'static [Shape],
     /// The signature of the member with this number.
     pub member: fn(usize) -> Option<&'static Signature>,
-    /// The events that it reports.
     pub events: &'static [Event],
-    /// The services that it shares with the program's other primitives.
     pub needs: Needs,
-    /// The inputs that it must receive.
     pub attention: Attention,
-    /// Binds an instance.
     pub bind: Bind,
 }
 

@@ -13,7 +13,7 @@ use crate::robot::instance::Instance;
 use crate::robot::services::Needs;
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
-use starl_core::{Payload, Primitive, Random};
+use starl_core::{Payload, Random};
 
 /// A variable that all robots write, one after the other.
 #[derive(Clone, Debug)]
@@ -62,9 +62,8 @@ impl Kind for Linearizable {
     ];
 
     const NEEDS: Needs = Needs {
-        detector: true,
         atomic: true,
-        ..Needs::NOTHING
+        ..Needs::DETECTOR
     };
 
     fn bind(
@@ -73,10 +72,6 @@ impl Kind for Linearizable {
         _: &mut Arguments<'_>,
     ) -> Result<Linearizable, Cow<'static, str>> {
         Ok(Linearizable { initial: None })
-    }
-
-    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
-        None
     }
 
     /// Its values lie in the services.

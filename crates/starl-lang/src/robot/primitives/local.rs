@@ -1,6 +1,6 @@
 //! LocalBroadcast in programs.
 
-use super::kind::{Attention, Event, Kind, Member, method};
+use super::kind::{Attention, Kind, Member, method};
 use crate::robot::arguments::Arguments;
 use crate::robot::context::Context;
 use crate::robot::instance::Instance;
@@ -24,8 +24,6 @@ impl Kind for LocalBroadcast {
             Ok(1)
         },
     )];
-
-    const EVENTS: &'static [Event] = &[];
 
     const ATTENTION: Attention = Attention::NONE;
 

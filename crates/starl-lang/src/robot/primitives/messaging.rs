@@ -250,13 +250,7 @@ impl Channel for Broadcast {
         robot: &mut Robot<'_>,
         arguments: &mut Arguments<'_>,
     ) -> Result<Self, Cow<'static, str>> {
-        let order = match arguments.optional(Arguments::int) {
-            None => Order::Unordered,
-            Some(variant) => {
-                let order = ORDERS.get(variant as usize);
-                order.ok_or("there is no such order")?.1
-            }
-        };
+        let order = arguments.choice("order", &ORDERS, Order::Unordered)?;
         let mut broadcast = Broadcast::in_order(name, order, Options::default());
         broadcast.handle(robot, &Input::Start);
         Ok(broadcast)

@@ -22,5 +22,5 @@ mod watch;
 pub use attended::Attended;
 pub use bound::{BoundPrimitive, Slot};
 pub use kind::Report;
-pub use kinds::{Entry, KINDS};
+pub use kinds::KINDS;
 pub(super) use shared::{candidates, give, give_all};

@@ -1,6 +1,6 @@
 //! Mutex in programs.
 
-use super::kind::{Kind, Member, method, query};
+use super::kind::{Kind, Member, flag, method, query};
 use crate::machine::{Body, List, Object};
 use crate::robot::arguments::Arguments;
 use crate::robot::context::Context;
@@ -88,31 +88,20 @@ impl Kind for Mutex {
                 Ok(1 + count)
             },
         ),
-        query("waiting", &[], Shape::Bool, |mutex, _, call| {
-            call.set_bool(0, mutex.is_waiting());
-            Ok(0)
-        }),
+        flag!("waiting", Mutex::is_waiting),
         query(
             "fencing",
             &[],
             Shape::Optional(&Shape::Int),
             |mutex, _, call| {
-                let number = mutex.fencing();
-                call.set_bool(0, number.is_some());
-                call.set_scalar(1, number.unwrap_or(0));
+                call.set_optional(0, mutex.fencing());
                 Ok(0)
             },
         ),
-        query("failed", &[], Shape::Bool, |mutex, _, call| {
-            call.set_bool(0, mutex.failed());
-            Ok(0)
-        }),
+        flag!("failed", Mutex::failed),
     ];
 
-    const NEEDS: Needs = Needs {
-        detector: true,
-        ..Needs::NOTHING
-    };
+    const NEEDS: Needs = Needs::DETECTOR;
 
     fn bind(
         _: &Instance,
@@ -123,19 +112,9 @@ impl Kind for Mutex {
         let participants = arguments.participants(context.robot).flatten();
         let default = Options::default();
         let options = Options {
-            algorithm: match arguments.optional(Arguments::int) {
-                None => default.algorithm,
-                Some(variant) => {
-                    let algorithm = MUTEX_ALGORITHMS.get(variant as usize);
-                    algorithm.ok_or("there is no such algorithm")?.1
-                }
-            },
-            lease: arguments
-                .optional(Arguments::duration)
-                .unwrap_or(default.lease),
-            longest_timeout: arguments
-                .optional(Arguments::duration)
-                .unwrap_or(default.longest_timeout),
+            algorithm: arguments.choice("algorithm", &MUTEX_ALGORITHMS, default.algorithm)?,
+            lease: arguments.duration_or(default.lease),
+            longest_timeout: arguments.duration_or(default.longest_timeout),
             ..default
         };
         for (name, time) in [
@@ -148,9 +127,7 @@ impl Kind for Mutex {
         }
         let places = arguments.optional(areas).transpose()?;
         let default = PlaceOptions::default();
-        let patience = arguments
-            .optional(Arguments::duration)
-            .unwrap_or(default.patience);
+        let patience = arguments.duration_or(default.patience);
         if patience.is_zero() {
             return Err("`patience` must be greater than 0 s".into());
         }

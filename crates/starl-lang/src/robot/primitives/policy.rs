@@ -9,7 +9,7 @@ use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
 use alloc::format;
 use alloc::vec::Vec;
-use starl_core::{Primitive, Random};
+use starl_core::Random;
 
 /// The number of operations of a network that cost one unit of fuel; an instruction takes about as long.
 const OPERATIONS_PER_FUEL: usize = 16;
@@ -61,10 +61,6 @@ impl Kind for Policy {
         let found = models.position(|model| model.path == path);
         let model = found.ok_or_else(|| format!("the program has no model {path:?}"))?;
         Ok(Policy { model })
-    }
-
-    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
-        None
     }
 
     /// Its network is a part of the program, which no fault changes.

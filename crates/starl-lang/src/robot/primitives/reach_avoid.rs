@@ -1,6 +1,6 @@
 //! ReachAvoid in programs.
 
-use super::kind::{Attention, Kind, Member, method, query};
+use super::kind::{Attention, Kind, Member, flag, method, query};
 use crate::robot::arguments::Arguments;
 use crate::robot::context::Context;
 use crate::robot::instance::Instance;
@@ -86,10 +86,7 @@ impl Kind for ReachAvoid {
             motion.stop(context.robot);
             Ok(1)
         }),
-        query("active", &[], Shape::Bool, |motion, _, call| {
-            call.set_bool(0, motion.active());
-            Ok(0)
-        }),
+        flag!("active", ReachAvoid::active),
         query(
             "target",
             &[],
@@ -101,27 +98,19 @@ impl Kind for ReachAvoid {
                 Ok(0)
             },
         ),
-        query("done", &[], Shape::Bool, |motion, _, call| {
-            call.set_bool(0, motion.done());
-            Ok(0)
-        }),
-        query("failed", &[], Shape::Bool, |motion, _, call| {
-            call.set_bool(0, motion.failed());
-            Ok(0)
-        }),
+        flag!("done", ReachAvoid::done),
+        flag!("failed", ReachAvoid::failed),
         query(
             "reason",
             &[],
             Shape::Optional(&Shape::MotionTrouble),
             |motion, _, call| {
-                let reason = motion.reason();
                 let place = |reason| {
-                    MOTION_TROUBLES
-                        .iter()
-                        .position(|(_, trouble)| *trouble == reason)
+                    let mut troubles = MOTION_TROUBLES.iter();
+                    let place = troubles.position(|(_, trouble)| *trouble == reason);
+                    place.unwrap_or_default() as u64
                 };
-                call.set_bool(0, reason.is_some());
-                call.set_scalar(1, reason.and_then(place).unwrap_or_default() as u64);
+                call.set_optional(0, motion.reason().map(place));
                 Ok(0)
             },
         ),
@@ -142,17 +131,9 @@ impl Kind for ReachAvoid {
             vicinity: length(arguments, "vicinity", default.vicinity)?,
             pass_radius: length(arguments, "pass_radius", default.pass_radius)?,
             off_path: length(arguments, "off_path", default.off_path)?,
-            stuck_after: arguments
-                .optional(Arguments::duration)
-                .unwrap_or(default.stuck_after),
+            stuck_after: arguments.duration_or(default.stuck_after),
             most_replans: count(arguments, "most_replans", default.most_replans)?,
-            planner: match arguments.optional(Arguments::int) {
-                None => default.planner,
-                Some(variant) => {
-                    let planner = PLANNERS.get(variant as usize);
-                    planner.ok_or("there is no such planner")?.1
-                }
-            },
+            planner: arguments.choice("planner", &PLANNERS, default.planner)?,
             most_nodes: count(arguments, "most_nodes", default.most_nodes)?,
             gap: length(arguments, "gap", default.gap)?,
             ..default

@@ -1,6 +1,6 @@
 //! Registration in programs.
 
-use super::kind::{Kind, Member, method, query};
+use super::kind::{Kind, Member, flag, method, query};
 use crate::machine::{HostCall, Object};
 use crate::robot::arguments::{Arguments, Called};
 use crate::robot::context::Context;
@@ -47,22 +47,14 @@ impl Kind for Registration {
             &[],
             Shape::Optional(&Shape::Time),
             |registration, _, call| {
-                let time = registration.agreed_at();
-                call.set_bool(0, time.is_some());
-                call.set_scalar(1, time.map_or(0, |time| time.0));
+                call.set_optional(0, registration.agreed_at().map(|time| time.0));
                 Ok(0)
             },
         ),
-        query("failed", &[], Shape::Bool, |registration, _, call| {
-            call.set_bool(0, registration.failed());
-            Ok(0)
-        }),
+        flag!("failed", Registration::failed),
     ];
 
-    const NEEDS: Needs = Needs {
-        detector: true,
-        ..Needs::NOTHING
-    };
+    const NEEDS: Needs = Needs::DETECTOR;
 
     fn bind(
         _: &Instance,

@@ -15,17 +15,19 @@ use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::string::ToString;
 use alloc::vec::Vec;
-use starl_core::{Payload, Primitive, Random, Robot, RobotId};
+use starl_core::{Payload, Random, Robot, RobotId};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::WriteError;
 
-/// A variable of which each robot writes an element of its own.
+/// A shared variable. If `OF_EACH`, each robot writes an element of its own; otherwise all robots write one value.
 #[derive(Clone, Debug)]
-pub struct SingleWriter;
+pub struct Shared<const OF_EACH: bool>;
+
+/// A variable of which each robot writes an element of its own.
+pub type SingleWriter = Shared<true>;
 
 /// A variable that all robots write.
-#[derive(Clone, Debug)]
-pub struct MultiWriter;
+pub type MultiWriter = Shared<false>;
 
 /// The consistency, none for the memory's own.
 pub(super) const CONSISTENCY: &[Shape] = &[Shape::Optional(&Shape::Text)];
@@ -148,10 +150,8 @@ pub(in crate::robot) fn give_all(
     Ok(cost)
 }
 
-impl Kind for SingleWriter {
-    const NAME: &'static str = "SingleWriter";
-    const CONSTRUCTOR: &'static [Shape] = CONSISTENCY;
-    const MEMBERS: &'static [Member<SingleWriter>] = &[
+impl<const OF_EACH: bool> Shared<OF_EACH> {
+    const MEMBERS_OF_EACH: &[Member<Self>] = &[
         method("initialize", &[Shape::Any], None, |_, context, call| {
             let value = value(context, call)?;
             let (memory, robot, variable) = memory(context)?;
@@ -186,32 +186,7 @@ impl Kind for SingleWriter {
         ),
     ];
 
-    fn bind(
-        _: &Instance,
-        context: &mut Context<'_, '_>,
-        arguments: &mut Arguments<'_>,
-    ) -> Result<SingleWriter, Cow<'static, str>> {
-        set_consistency(context, arguments)?;
-        Ok(SingleWriter)
-    }
-
-    const NEEDS: Needs = Needs {
-        memory: true,
-        ..Needs::NOTHING
-    };
-
-    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
-        None
-    }
-
-    /// Its values lie in the services.
-    fn corrupt(&mut self, _: &mut Random) {}
-}
-
-impl Kind for MultiWriter {
-    const NAME: &'static str = "MultiWriter";
-    const CONSTRUCTOR: &'static [Shape] = CONSISTENCY;
-    const MEMBERS: &'static [Member<MultiWriter>] = &[
+    const MEMBERS_OF_ALL: &[Member<Self>] = &[
         method("initialize", &[Shape::Any], None, |_, context, call| {
             let value = value(context, call)?;
             let (memory, robot, variable) = memory(context)?;
@@ -234,24 +209,32 @@ impl Kind for MultiWriter {
             },
         ),
     ];
+}
+
+impl<const OF_EACH: bool> Kind for Shared<OF_EACH> {
+    const NAME: &'static str = match OF_EACH {
+        true => "SingleWriter",
+        false => "MultiWriter",
+    };
+    const CONSTRUCTOR: &'static [Shape] = CONSISTENCY;
+    const MEMBERS: &'static [Member<Self>] = match OF_EACH {
+        true => Self::MEMBERS_OF_EACH,
+        false => Self::MEMBERS_OF_ALL,
+    };
 
     fn bind(
         _: &Instance,
         context: &mut Context<'_, '_>,
         arguments: &mut Arguments<'_>,
-    ) -> Result<MultiWriter, Cow<'static, str>> {
+    ) -> Result<Self, Cow<'static, str>> {
         set_consistency(context, arguments)?;
-        Ok(MultiWriter)
+        Ok(Shared)
     }
 
     const NEEDS: Needs = Needs {
         memory: true,
         ..Needs::NOTHING
     };
-
-    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
-        None
-    }
 
     /// Its values lie in the services.
     fn corrupt(&mut self, _: &mut Random) {}

@@ -69,10 +69,7 @@ impl Kind for Watch {
         },
     ];
 
-    const NEEDS: Needs = Needs {
-        detector: true,
-        ..Needs::NOTHING
-    };
+    const NEEDS: Needs = Needs::DETECTOR;
 
     const ATTENTION: Attention = Attention::NONE;
 

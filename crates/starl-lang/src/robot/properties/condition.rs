@@ -2,12 +2,11 @@
 
 use super::evaluation::limits;
 use super::fleet::Fleet;
-use super::host::{Counted, PropertyHost};
+use super::host::PropertyHost;
 use crate::machine::{Claim, Fault, Machine};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
 use alloc::vec::Vec;
-use core::cell::Cell;
 use starl_core::{RobotId, Time};
 
 /// The condition of a program's last property, evaluated at any moment by itself.
@@ -52,19 +51,8 @@ impl Condition {
             true => roster.iter().copied().map(Some).collect(),
             false => Vec::from([None]),
         };
-        let mut host = PropertyHost {
-            code: &self.code,
-            fleet,
-            now,
-            roster: &roster,
-            all: None,
-            memo: &mut self.bench.memo,
-            last: Cell::new(None),
-            first: None,
-            counted: Counted::All,
-            has_majority: true,
-            looked_elsewhere: Cell::new(false),
-        };
+        let memo = &mut self.bench.memo;
+        let mut host = PropertyHost::new(&self.code, fleet, now, &roster, memo);
         let mut asked = Vec::with_capacity(rows.len());
         for row in rows {
             host.first = row;

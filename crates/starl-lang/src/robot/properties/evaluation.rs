@@ -16,11 +16,9 @@ pub struct Evaluation<'a> {
     pub workspace: &'a mut Workspace,
     /// The versions of the states of the started robots, in their order.
     pub versions: &'a [u64],
-    /// The property.
     pub property: &'a Property,
     /// Its index among the program's properties.
     pub index: usize,
-    /// Its history.
     pub history: &'a mut History,
     /// The violations found so far.
     pub violations: &'a mut Vec<Violation>,

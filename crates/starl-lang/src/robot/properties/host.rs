@@ -59,7 +59,30 @@ pub fn unknown(robot: RobotId) -> Cow<'static, str> {
     alloc::format!("there is no robot {robot}").into()
 }
 
-impl PropertyHost<'_> {
+impl<'a> PropertyHost<'a> {
+    /// A host for a property of all robots at a moment.
+    pub fn new(
+        code: &'a Code,
+        fleet: &'a dyn Fleet,
+        now: Time,
+        roster: &'a [RobotId],
+        memo: &'a mut Memo,
+    ) -> PropertyHost<'a> {
+        PropertyHost {
+            code,
+            fleet,
+            now,
+            roster,
+            all: None,
+            memo,
+            last: Cell::new(None),
+            first: None,
+            counted: Counted::All,
+            has_majority: true,
+            looked_elsewhere: Cell::new(false),
+        }
+    }
+
     /// The robot that a call is about.
     pub fn asked(&self, call: &HostCall<'_>) -> RobotId {
         let robot = Arguments::of(call).robot();

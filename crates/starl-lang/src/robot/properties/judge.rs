@@ -13,7 +13,6 @@ use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
-use core::cell::Cell;
 use starl_core::{Duration, RobotId, Time};
 
 /// The status of a property.
@@ -90,17 +89,9 @@ impl Judge {
         {
             let mut evaluation = Evaluation {
                 host: PropertyHost {
-                    code: &self.code,
-                    fleet,
-                    now,
-                    roster: &self.roster,
-                    all: None,
-                    memo: &mut self.bench.memo,
-                    last: Cell::new(None),
-                    first: None,
                     counted: counted(property),
                     has_majority: !self.lost_majority,
-                    looked_elsewhere: Cell::new(false),
+                    ..PropertyHost::new(&self.code, fleet, now, &self.roster, &mut self.bench.memo)
                 },
                 workspace: &mut self.bench.workspace,
                 versions: &self.versions,

@@ -5,7 +5,11 @@ use super::shared;
 use crate::machine::{Host, HostCall, State};
 use crate::robot::arguments::{Arguments, Called};
 use crate::robot::builtins::{name_of, way_point, way_point_group};
-use crate::robot::shape::{Shape, Signature};
+use crate::robot::shape::Shape::{
+    self, Any, Bool, Duration, Float, Int, List, Map, Obstacles, Optional, Point, Robot, Set,
+    Shared, Text, Time,
+};
+use crate::robot::shape::Signature;
 use crate::robot::workbench::robots;
 use starl_core::RobotId;
 
@@ -27,56 +31,52 @@ const fn observable(
     result: Shape,
     run: Run,
 ) -> Observable {
-    let signature = Signature {
-        name,
-        query: true,
-        parameters,
-        fields: false,
-        result: Some(result),
-    };
-    Observable { signature, run }
+    Observable {
+        signature: Signature::query(name, parameters, result),
+        run,
+    }
 }
 
-const A_ROBOT: &[Shape] = &[Shape::Robot];
+const A_ROBOT: &[Shape] = &[Robot];
 
 /// A shared variable, then the robot whose copy is read.
-const SHARED_OF_A_ROBOT: &[Shape] = &[Shape::Shared, Shape::Robot];
+const SHARED_OF_A_ROBOT: &[Shape] = &[Shared, Robot];
 
 /// All of them. Those without a robot are the language's built-in names.
 pub static OBSERVABLES: &[Observable] = &[
-    observable("robot.all", &[], Shape::List(&Shape::Robot), all),
-    observable("robot.all", &[], Shape::Set(&Shape::Robot), all),
-    observable("robot.position", A_ROBOT, Shape::Point, |host, call| {
+    observable("robot.all", &[], List(&Robot), all),
+    observable("robot.all", &[], Set(&Robot), all),
+    observable("robot.position", A_ROBOT, Point, |host, call| {
         let pose = host.pose(call)?;
         call.set_point(0, pose.position);
         Ok(0)
     }),
-    observable("robot.heading", A_ROBOT, Shape::Float, |host, call| {
+    observable("robot.heading", A_ROBOT, Float, |host, call| {
         let pose = host.pose(call)?;
         call.set_float(0, pose.yaw);
         Ok(0)
     }),
-    observable("robot.velocity", A_ROBOT, Shape::Point, |host, call| {
+    observable("robot.velocity", A_ROBOT, Point, |host, call| {
         let robot = host.asked(call);
         let velocity = host.fleet.velocity(robot);
         call.set_point(0, velocity.ok_or_else(|| unknown(robot))?);
         Ok(0)
     }),
-    observable("robot.finished", A_ROBOT, Shape::Bool, |host, call| {
+    observable("robot.finished", A_ROBOT, Bool, |host, call| {
         let robot = host.asked(call);
         call.set_bool(0, host.fleet.has_finished(robot));
         Ok(0)
     }),
-    observable("robot.up", A_ROBOT, Shape::Bool, |host, call| {
+    observable("robot.up", A_ROBOT, Bool, |host, call| {
         let robot = host.asked(call);
         call.set_bool(0, host.fleet.is_up(robot));
         Ok(0)
     }),
-    observable("majority", &[], Shape::Bool, |host, call| {
+    observable("majority", &[], Bool, |host, call| {
         call.set_bool(0, host.has_majority);
         Ok(0)
     }),
-    observable("crashed", &[], Shape::Int, |host, call| {
+    observable("crashed", &[], Int, |host, call| {
         let down = host
             .roster
             .iter()
@@ -84,58 +84,43 @@ pub static OBSERVABLES: &[Observable] = &[
         call.set_int(0, down.count() as i64);
         Ok(0)
     }),
-    observable("now", &[], Shape::Time, |host, call| {
+    observable("now", &[], Time, |host, call| {
         call.set_nanoseconds(0, host.now.0);
         Ok(0)
     }),
-    observable("undisturbed", &[], Shape::Duration, |host, call| {
+    observable("undisturbed", &[], Duration, |host, call| {
         call.set_nanoseconds(0, host.fleet.undisturbed().0);
         Ok(0)
     }),
-    observable("uncorrupted", &[], Shape::Duration, |host, call| {
+    observable("uncorrupted", &[], Duration, |host, call| {
         call.set_nanoseconds(0, host.fleet.uncorrupted().0);
         Ok(0)
     }),
-    observable("peers", &[], Shape::Set(&Shape::Robot), |host, call| {
+    observable("peers", &[], Set(&Robot), |host, call| {
         let everyone = host.fleet.everyone();
         let everyone = everyone.unwrap_or_else(|| host.fleet.robots());
         call.set_object(0, host.memo.fleet(everyone));
         Ok(0)
     }),
-    observable("robot_name", A_ROBOT, Shape::Text, |_, call| {
+    observable("robot_name", A_ROBOT, Text, |_, call| {
         let robot = Arguments::of(call).robot();
         call.set_object(0, name_of(robot));
         Ok(1)
     }),
-    observable(
-        "way_points",
-        &[],
-        Shape::List(&Shape::Point),
-        |host, call| {
-            let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
-            call.set_object(0, host.memo.way_points(way_points));
-            Ok(0)
-        },
-    ),
-    observable(
-        "way_point",
-        &[Shape::Text],
-        Shape::Optional(&Shape::Point),
-        |host, call| {
-            let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
-            Ok(way_point(way_points, call))
-        },
-    ),
-    observable(
-        "way_point_group",
-        &[Shape::Int],
-        Shape::List(&Shape::Point),
-        |host, call| {
-            let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
-            Ok(way_point_group(way_points, call))
-        },
-    ),
-    observable("obstacles", &[], Shape::Obstacles, |host, call| {
+    observable("way_points", &[], List(&Point), |host, call| {
+        let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
+        call.set_object(0, host.memo.way_points(way_points));
+        Ok(0)
+    }),
+    observable("way_point", &[Text], Optional(&Point), |host, call| {
+        let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
+        Ok(way_point(way_points, call))
+    }),
+    observable("way_point_group", &[Int], List(&Point), |host, call| {
+        let way_points = host.fleet.way_points().ok_or(NOT_KNOWN)?;
+        Ok(way_point_group(way_points, call))
+    }),
+    observable("obstacles", &[], Obstacles, |host, call| {
         let obstacles = host.fleet.obstacles().ok_or(NOT_KNOWN)?;
         call.set_object(0, obstacles.into());
         Ok(0)
@@ -143,19 +128,19 @@ pub static OBSERVABLES: &[Observable] = &[
     observable(
         "shared.read",
         SHARED_OF_A_ROBOT,
-        Shape::Optional(&Shape::Any),
+        Optional(&Any),
         shared::read,
     ),
     observable(
         "shared.element",
-        &[Shape::Shared, Shape::Robot, Shape::Robot],
-        Shape::Optional(&Shape::Any),
+        &[Shared, Robot, Robot],
+        Optional(&Any),
         shared::element,
     ),
     observable(
         "shared.all",
         SHARED_OF_A_ROBOT,
-        Shape::Map(&Shape::Robot, &Shape::Any),
+        Map(&Robot, &Any),
         shared::all,
     ),
 ];

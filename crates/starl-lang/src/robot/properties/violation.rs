@@ -4,6 +4,7 @@ use super::host::PropertyHost;
 use super::reads::{Reads, first_function};
 use crate::machine::{Property, Value};
 use crate::robot::failure::Failure;
+use crate::robot::words::shortened;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
@@ -132,11 +133,8 @@ impl fmt::Display for Seen {
         }
         for (index, (name, value)) in self.variables.iter().enumerate() {
             let before = if index == 0 { ": " } else { ", " };
-            let text = value.to_string();
-            match text.char_indices().nth(LONGEST_VALUE) {
-                None => write!(f, "{before}{name} = {text}")?,
-                Some((end, _)) => write!(f, "{before}{name} = {}...", &text[..end])?,
-            }
+            let text = shortened(value.to_string(), LONGEST_VALUE);
+            write!(f, "{before}{name} = {text}")?;
         }
         Ok(())
     }
