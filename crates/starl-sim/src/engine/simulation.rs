@@ -397,11 +397,6 @@ impl Simulation {
         digest
     }
 
-    /// The hash of all events of one robot, to find the first difference of two runs.
-    pub fn robot_digest(&self, robot: RobotId) -> Digest {
-        self.member(robot).account.digest
-    }
-
     /// Counts of events so far.
     pub fn tally(&self) -> Tally {
         let mut tally = Tally::default();
