@@ -15,12 +15,13 @@ use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::string::ToString;
 use alloc::vec::Vec;
+use core::fmt;
 use starl_core::{Payload, Random, Robot, RobotId};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::WriteError;
 
 /// A shared variable. If `OF_EACH`, each robot writes an element of its own; otherwise all robots write one value.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Shared<const OF_EACH: bool>;
 
 /// A variable of which each robot writes an element of its own.
@@ -148,6 +149,13 @@ pub(in crate::robot) fn give_all(
     };
     call.set_object(0, map);
     Ok(cost)
+}
+
+/// Shows its kind: the values lie in the services.
+impl<const OF_EACH: bool> fmt::Debug for Shared<OF_EACH> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(Self::NAME)
+    }
 }
 
 impl<const OF_EACH: bool> Shared<OF_EACH> {
