@@ -14,14 +14,13 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs. The page comes before the first build of the command, which contains it.
-test: page-and-check
-	$(UNIT) --no-run
-	$(MAKE) --no-print-directory --jobs=4 --output-sync FIRST=wheel-for-tests $(WHOLE)
+test: page-and-check unit
+	$(MAKE) --no-print-directory --jobs=3 --output-sync FIRST=wheel-for-tests $(WHOLE)
 
-# Four parts at a time, since browsers, Python, devices and fleets often wait. Each shows its output when it ends. The parts
-# that never wait come last. Those that build something wait for what Python's tests need, which take the longest: only one
-# command of cargo builds at a time.
-WHOLE = python unit web devices wasm trace schema faults examples portable docs deny
+# The parts that test the whole command run three at a time, since browsers, Python and devices often wait. Each shows its
+# output when it ends. The parts that never wait come last. Those that build something wait for what Python's tests need,
+# which take the longest: only one command of cargo builds at a time.
+WHOLE = python web devices wasm trace schema faults examples portable docs deny
 docs portable: | $(FIRST)
 
 # One core links the page's module and builds the page, and clippy uses the other. Meanwhile packages are downloaded.
@@ -40,10 +39,9 @@ check: setup-compiler
 	cargo clippy --locked --profile test --workspace --all-targets --all-features -- --deny warnings
 
 # Tests of emulated robots and of fleets mostly wait, so that eight run on two cores.
-UNIT = cargo test --locked --workspace --features starl/zenoh
 unit: export RUST_TEST_THREADS ?= $(shell echo $$((4 * $$(getconf _NPROCESSORS_ONLN))))
 unit:
-	$(UNIT)
+	cargo test --locked --workspace --features starl/zenoh
 
 # The crates of programs also build without an operating system.
 portable:

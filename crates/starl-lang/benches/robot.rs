@@ -179,6 +179,10 @@ impl properties::Fleet for Seen<'_> {
     fn is_up(&self, _: RobotId) -> bool {
         true
     }
+
+    fn way_points(&self) -> Option<&[WayPoint]> {
+        Some(&self.fleet.way_points)
+    }
 }
 
 /// How long it takes to judge Race's properties, all robots and those that have changed.
