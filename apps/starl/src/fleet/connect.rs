@@ -14,12 +14,11 @@ pub fn connect(fleet: &Fleet) -> Result<Operator, Failure> {
     let (sender, inbox) = mpsc::channel();
     let me = fresh_member();
     let transport = link::open(fleet, None, me, move |arrival| sender.send(arrival).is_ok())?;
-    let robots = fleet.robots.iter().map(|robot| robot.id.0).collect();
     Ok(Operator::new(
         me,
         &fleet.name,
         keys,
-        robots,
+        fleet.numbers(),
         transport,
         inbox,
     ))

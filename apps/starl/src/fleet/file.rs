@@ -380,6 +380,19 @@ impl Fleet {
         })
     }
 
+    /// The numbers of all robots.
+    pub fn numbers(&self) -> Vec<u32> {
+        self.robots.iter().map(|robot| robot.id.0).collect()
+    }
+
+    /// The names of the robots that were asked and did not answer, by number.
+    pub fn silent(&self, asked: &[u32], answered: &[u32]) -> Vec<&str> {
+        let silent = asked.iter().filter(|robot| !answered.contains(robot));
+        silent
+            .map(|robot| self.robots[*robot as usize].name.as_str())
+            .collect()
+    }
+
     /// Where all robots are.
     pub fn places(&self) -> BTreeMap<u32, SocketAddr> {
         let places = self.robots.iter();

@@ -29,12 +29,8 @@ pub fn stop(arguments: &FleetStopArguments, registry: &Registry) -> Result<bool,
 }
 
 /// Stops all robots; gives the names of those that do not confirm it.
-pub fn halt(fleet: &Fleet, operator: &mut Operator) -> Vec<String> {
-    let robots: Vec<u32> = fleet.robots.iter().map(|robot| robot.id.0).collect();
+pub fn halt<'f>(fleet: &'f Fleet, operator: &mut Operator) -> Vec<&'f str> {
+    let robots = fleet.numbers();
     let stopped = operator.halt(&robots, PATIENCE);
-    let silent = fleet
-        .robots
-        .iter()
-        .filter(|robot| !stopped.contains(&robot.id.0));
-    silent.map(|robot| robot.name.clone()).collect()
+    fleet.silent(&robots, &stopped)
 }

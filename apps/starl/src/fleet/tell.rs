@@ -8,7 +8,6 @@ use crate::failure::Failure;
 use serde_json::json;
 use starl_catalog::programs::Registry;
 use starl_core::{Intervention, Order, RobotId};
-use starl_lang::robot::WrongField;
 use starl_sim::read::{self, Source, suggest};
 use std::fmt::Write;
 use std::time::Duration;
@@ -22,15 +21,13 @@ pub fn tell(arguments: &FleetTellArguments, registry: &Registry) -> Result<bool,
     let (robots, order) = order(arguments, &fleet)?;
     check(&fleet, &robots, &order)?;
     let mut operator = connect(&fleet)?;
-    let members: Vec<u32> = robots.iter().map(|robot| robot.0).collect();
-    let took = operator.order(&members, order, PATIENCE);
+    let took = operator.order(&robots, order, PATIENCE);
     let count = console::counted(took.len(), "robot");
     console::print(&format!(
         "{count} received the order `{}`\n",
         arguments.order
     ))?;
-    let silent = robots.iter().filter(|robot| !took.contains(&robot.0));
-    let silent: Vec<&str> = silent.map(|&robot| name(&fleet, robot)).collect();
+    let silent = fleet.silent(&robots, &took);
     if !silent.is_empty() {
         console::error(&format!(
             "no confirmation from {}: not running, waiting for a first position, failed, or not reachable from here",
@@ -40,12 +37,8 @@ pub fn tell(arguments: &FleetTellArguments, registry: &Registry) -> Result<bool,
     Ok(silent.is_empty())
 }
 
-fn name(fleet: &Fleet, robot: RobotId) -> &str {
-    &fleet.robots[robot.index()].name
-}
-
-/// The robots and the order, read as an event of the fleet's scenario.
-fn order(arguments: &FleetTellArguments, fleet: &Fleet) -> Result<(Vec<RobotId>, Order), Failure> {
+/// The numbers of the robots, and the order, read as an event of the fleet's scenario.
+fn order(arguments: &FleetTellArguments, fleet: &Fleet) -> Result<(Vec<u32>, Order), Failure> {
     let mut text = format!(
         "[[event]]\nkind = \"tell\"\nat = \"0s\"\norder = {}\n",
         json!(arguments.order)
@@ -71,10 +64,11 @@ fn order(arguments: &FleetTellArguments, fleet: &Fleet) -> Result<(Vec<RobotId>,
     let mut events = read::scenario(&request, inputs)?.scenario.events;
     match events.pop().map(|event| event.what) {
         Some(Intervention::Tell { robots, order }) if robots.is_empty() => {
-            let all = fleet.robots.iter().map(|robot| robot.id);
-            Ok((all.collect(), order))
+            Ok((fleet.numbers(), order))
         }
-        Some(Intervention::Tell { robots, order }) => Ok((robots, order)),
+        Some(Intervention::Tell { robots, order }) => {
+            Ok((robots.iter().map(|robot| robot.0).collect(), order))
+        }
         _ => Err(Failure("the order cannot be read".into())),
     }
 }
@@ -90,28 +84,24 @@ fn written(value: &str) -> String {
 
 /// Refuses an order that no program handles, or that a program would ignore. Only programs in the StarL language say
 /// which orders they handle.
-fn check(fleet: &Fleet, robots: &[RobotId], order: &Order) -> Result<(), Failure> {
+fn check(fleet: &Fleet, robots: &[u32], order: &Order) -> Result<(), Failure> {
     let mut known = Vec::new();
     let mut is_handled = false;
     for &robot in robots {
-        let Some(code) = fleet.application.code_of(robot) else {
+        let Some(code) = fleet.application.code_of(RobotId(robot)) else {
             is_handled = true;
             continue;
         };
         known.extend(code.orders().names());
         match code.orders().decode(code.program(), order) {
             Ok(arrival) => is_handled |= arrival.is_some(),
-            Err(WrongField {
-                field,
-                expected,
-                found,
-                ..
-            }) => {
-                let found = found.unwrap_or("missing");
+            Err(wrong) => {
                 return Err(Failure(format!(
-                    "{}: the field `{field}` of `{}` must be {expected}, but it is {found}",
-                    name(fleet, robot),
-                    order.name
+                    "{}: the field `{}` of `{}` {}",
+                    fleet.robots[robot as usize].name,
+                    wrong.field,
+                    wrong.order,
+                    wrong.need()
                 )));
             }
         }

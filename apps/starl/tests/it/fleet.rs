@@ -47,12 +47,15 @@ pub(crate) fn ports(count: u16) -> u16 {
 fn fleet(test: &str) -> std::path::PathBuf {
     let folder = folder(test);
     file(&folder, "race.toml", RACE);
-    let text = format!(
-        "scenario = \"race.toml\"\n[link]\nfirst_port = {}\n",
-        ports(2)
-    );
-    file(&folder, "fleet.toml", &text);
+    fleet_file(&folder, "race.toml");
     folder
+}
+
+/// A file of a fleet of two robots that run this scenario.
+pub(crate) fn fleet_file(folder: &Path, scenario: &str) {
+    let first = ports(2);
+    let text = format!("scenario = \"{scenario}\"\n[link]\nfirst_port = {first}\n");
+    file(folder, "fleet.toml", &text);
 }
 
 /// A fleet, or its router, that runs until this is dropped.
@@ -933,11 +936,7 @@ start = [{ position = [1, 0] }, { position = [-1, 0] }]
 way_point = [{ name = "robot0", position = [-1, 0] }, { name = "robot1", position = [1, 0] }]
 "#;
     file(&folder, "two.toml", scenario);
-    let text = format!(
-        "scenario = \"two.toml\"\n[link]\nfirst_port = {}\n",
-        ports(2)
-    );
-    file(&folder, "fleet.toml", &text);
+    fleet_file(&folder, "two.toml");
     let output = Up::start(&folder, &[]).end();
     assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
     // The network is in the trace, and gives the same numbers there.

@@ -2,7 +2,7 @@
 
 #![cfg(unix)]
 
-use crate::fleet::{Up, hear_each_other, ports, wait_until};
+use crate::fleet::{Up, fleet_file, hear_each_other, wait_until};
 use crate::support::*;
 use starl_core::{Event, Intervention, RobotId};
 use std::fs::File;
@@ -35,9 +35,7 @@ fn robots_follow_the_orders_of_an_operator() {
     let folder = folder("fleet_orders");
     file(&folder, "called.starl", PROGRAM);
     file(&folder, "called.toml", SCENARIO);
-    let port = ports(2);
-    let text = format!("scenario = \"called.toml\"\n[link]\nfirst_port = {port}\n");
-    file(&folder, "fleet.toml", &text);
+    fleet_file(&folder, "called.toml");
     let tell = |arguments: &[&str]| {
         let mut all = vec!["fleet", "tell", "fleet.toml"];
         all.extend_from_slice(arguments);

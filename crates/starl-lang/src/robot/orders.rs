@@ -6,6 +6,7 @@
 use super::messages::Arrival;
 use super::words::type_name;
 use crate::machine::{Bytecode, ObjectType, Origin, Program, Type, Value};
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::{self as core, Order};
@@ -26,10 +27,7 @@ pub struct Orders(Vec<Incoming>);
 
 /// A field of an order that does not fit the input that handles it.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error(
-    "order `{order}` ignored: its field `{field}` must be {expected}, but it is {}",
-    found.unwrap_or("missing")
-)]
+#[error("order `{order}` ignored: its field `{field}` {}", self.need())]
 pub struct WrongField {
     /// The name of the order.
     pub order: String,
@@ -39,6 +37,14 @@ pub struct WrongField {
     pub expected: String,
     /// The type that it has; none if it is missing.
     pub found: Option<&'static str>,
+}
+
+impl WrongField {
+    /// The type that the field must have, and the one that it has.
+    pub fn need(&self) -> String {
+        let found = self.found.unwrap_or("missing");
+        format!("must be {}, but it is {found}", self.expected)
+    }
 }
 
 impl Orders {

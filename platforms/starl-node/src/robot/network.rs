@@ -37,7 +37,8 @@ const EASING: u64 = 10;
 /// Until all have heard this robot, they miss rounds for at most this time altogether.
 const LONGEST_EASING: Duration = Duration::from_millis(6000);
 
-/// The number of the latest orders that are remembered, so that copies of them are recognised. An operator repeats an order for a few seconds.
+/// The number of the latest orders that are remembered, so that copies of them are recognised. An operator repeats an order
+/// for a few seconds.
 const MOST_ORDERS: usize = 64;
 
 /// A robot of so large a fleet hears each other one at least this often, unless beacons are lost.

@@ -1,15 +1,10 @@
 //! Operators see the last events of a robot that ends.
 
-use crate::support::{Idle, Notes, Sent, at, setup};
+use crate::support::{Idle, Notes, at, from_operator, setup, to_operator};
 use starl_core::{Event, Program, Robot};
-use starl_node::link::channel::Opened;
+use starl_node::link::Channel;
 use starl_node::link::frame::Frame;
-use starl_node::link::{Arrival, Channel, Member, OPERATORS, Origin};
-use starl_node::robot::{Core, Incoming};
-use std::time::Instant;
-
-/// The operator that watches.
-const OPERATOR: Member = OPERATORS | 1;
+use starl_node::robot::Core;
 
 /// Finishes after 100 ms.
 #[derive(Clone, Debug, starl_core::Primitives)]
@@ -25,14 +20,7 @@ impl Program for Finishing {
 
 /// The events in the packets to the operator.
 fn told(idle: &Idle) -> Vec<Event> {
-    let mut operator = Channel::new(OPERATOR, "fleet", Vec::new());
-    let open = |(to, packet): &Sent| match operator.open(at(0), packet) {
-        _ if *to != OPERATOR => panic!("a packet to {to}"),
-        Opened::Content { content, .. } => starl_core::message::decode(&content),
-        _ => None,
-    };
-    let sent = idle.sent.borrow();
-    let frames = sent.iter().filter_map(open);
+    let frames = to_operator(idle).into_iter();
     let seen = frames.filter_map(|frame| match frame {
         Frame::Seen(seen) => Some(seen.events),
         _ => None,
@@ -42,18 +30,10 @@ fn told(idle: &Idle) -> Vec<Event> {
 
 #[test]
 fn a_robot_that_ends_sends_its_last_events_to_the_operators_that_watch_it() {
-    let mut operator = Channel::new(OPERATOR, "fleet", Vec::new());
-    operator.want(0);
-    let watch = starl_core::message::encode(&Frame::Watch);
-    let watch = Incoming::Packet(Arrival {
-        at: Instant::now(),
-        origin: Origin::Named,
-        packet: operator.seal(0, &watch).expect("it is not encrypted"),
-    });
     let (channel, idle) = (Channel::new(0, "fleet", Vec::new()), Idle::default());
     let software = setup(Finishing);
     let mut core = Core::new(at(0), software, channel, idle.clone(), Notes::default());
-    core.step(at(100), &mut vec![watch]);
+    core.step(at(100), &mut vec![from_operator(&Frame::Watch)]);
     // The next report is due at 150 ms.
     for ms in 101..149 {
         core.step(at(ms), &mut Vec::new());

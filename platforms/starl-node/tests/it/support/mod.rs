@@ -7,11 +7,14 @@ use starl_host::{Hardware, Observed, PlanJob, StoreJob};
 use starl_motion::Neighbour;
 use starl_motion::sensing::SensorSuite;
 use starl_node::Safety;
-use starl_node::link::{Member, Origin};
-use starl_node::robot::{Equipment, Recorder, Setup};
+use starl_node::link::channel::Opened;
+use starl_node::link::frame::Frame;
+use starl_node::link::{Arrival, Channel, Member, OPERATORS, Origin};
+use starl_node::robot::{Equipment, Incoming, Recorder, Setup};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A packet with its receiver.
 pub type Sent = (Member, Vec<u8>);
@@ -63,6 +66,32 @@ impl Recorder for Notes {
     fn advance(&mut self, _: Time) {}
 
     fn notice(&mut self, _: Time, _: &str) {}
+}
+
+/// The operator of a fleet without a key.
+pub const OPERATOR: Member = OPERATORS | 1;
+
+/// A frame of the operator to the robot.
+pub fn from_operator(frame: &Frame) -> Incoming {
+    let mut operator = Channel::new(OPERATOR, "fleet", Vec::new());
+    operator.want(0);
+    let content = starl_core::message::encode(frame);
+    Incoming::Packet(Arrival {
+        at: Instant::now(),
+        origin: Origin::Named,
+        packet: operator.seal(0, &content).expect("it is not encrypted"),
+    })
+}
+
+/// The frames that the robot has sent, all of them to the operator.
+pub fn to_operator(idle: &Idle) -> Vec<Frame> {
+    let mut operator = Channel::new(OPERATOR, "fleet", Vec::new());
+    let open = |(to, packet): &Sent| match operator.open(at(0), packet) {
+        _ if *to != OPERATOR => panic!("a packet to {to}"),
+        Opened::Content { content, .. } => starl_core::message::decode(&content),
+        _ => None,
+    };
+    idle.sent.borrow().iter().filter_map(open).collect()
 }
 
 pub fn at(ms: u64) -> Time {
