@@ -218,10 +218,15 @@ fn follow(
     let mut records: Vec<starl_core::Record> = Vec::new();
     let begun = Instant::now();
     loop {
-        let length = stream.read(&mut part).unwrap_or_else(|error| {
-            let last = &records[records.len().saturating_sub(40)..];
-            panic!("the stream pauses: {error}, after {last:#?}")
-        });
+        let length = match stream.read(&mut part) {
+            Ok(length) => length,
+            // The process, or the whole machine, was stopped for a while.
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+            Err(error) => {
+                let last = &records[records.len().saturating_sub(40)..];
+                panic!("the stream pauses: {error}, after {last:#?}")
+            }
+        };
         bytes.extend_from_slice(&part[..length]);
         let head = bytes.windows(4).position(|four| four == b"\r\n\r\n");
         let trace = head.map_or(&[][..], |head| &bytes[head + 4..]);
