@@ -1,7 +1,8 @@
 //! Starts one emulated device of each kind in one world, for programs in other languages to drive.
 //!
 //! `devices FOLDER` prints a line of JSON that says where the devices are, and answers each line on its standard input
-//! with a line of true poses by name: `{"r1": [x, y, z, yaw], ...}`, metres and radians. It ends with its input.
+//! with a line of the time in seconds and of true poses by name: `{"seconds": t, "r1": [x, y, z, yaw], ...}`, metres and
+//! radians. It ends with its input.
 
 use starl_core::{Obstacle, Point, Pose};
 use starl_create::Generation;
@@ -79,7 +80,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 format!("{name:?}: [{x}, {y}, {z}, {}]", pose.yaw)
             })
             .collect();
-        println!("{{{}}}", poses.join(", "));
+        let seconds = world.elapsed().seconds();
+        println!(r#"{{"seconds": {seconds}, {}}}"#, poses.join(", "));
     }
     Ok(())
 }

@@ -25,6 +25,10 @@ class Emulator:
 
     def pose(self, name):
         """The true pose of a body: x, y, z, yaw."""
+        return self.ask()[name]
+
+    def ask(self):
+        """The true poses of all bodies by their names, and the time of the devices in seconds."""
         self.process.stdin.write("\n")
         self.process.stdin.flush()
-        return json.loads(self.process.stdout.readline())[name]
+        return json.loads(self.process.stdout.readline())
