@@ -405,6 +405,10 @@ instructions! {
 
     /// Sets the value of a key: the block is the key followed by the value. A shift of what follows.
     MapPut "map_put" { map: ObjectInOut, scalars: Block, objects: ObjectBlock, kind: Type }
+    /// Adds to the value of a key, an Int, which is 0 if the key is missing. A shift of what follows. Error: overflow.
+    MapAdd "map_add" { map: ObjectInOut, scalars: Block, objects: ObjectBlock, amount: In, kind: Type }
+    /// As `map_add`.
+    MapAddConstant "map_add_constant" { map: ObjectInOut, scalars: Block, objects: ObjectBlock, amount: Short, kind: Type }
     /// to = an optional: the value of the key.
     MapGet "map_get" { map: ObjectIn, scalars: Block, objects: ObjectBlock, to: Block, to_objects: ObjectBlock, kind: Type }
     /// to = the value of the key. Error: key missing.

@@ -116,8 +116,20 @@ pub struct Parts {
     pub element: Layout,
     /// A value.
     pub value: Layout,
-    /// Whether it is a map whose keys are one whole number or one text each.
-    pub has_hashed_keys: bool,
+    /// What the keys of a map are.
+    pub keys: Keys,
+}
+
+/// What the keys of a map are, for looking them up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keys {
+    /// One whole number each.
+    Numbers,
+    /// One text each.
+    Texts,
+    /// Something else, or it is no map.
+    #[default]
+    Others,
 }
 
 impl Parts {
@@ -133,10 +145,10 @@ impl Parts {
                 let is_text =
                     |object: &u16| all.get(usize::from(*object)) == Some(&ObjectType::Text);
                 Parts {
-                    has_hashed_keys: match (&element.scalars[..], &element.objects[..]) {
-                        ([order], []) => *order == Order::Integer,
-                        ([], [object]) => is_text(object),
-                        _ => false,
+                    keys: match (&element.scalars[..], &element.objects[..]) {
+                        ([Order::Integer], []) => Keys::Numbers,
+                        ([], [object]) if is_text(object) => Keys::Texts,
+                        _ => Keys::Others,
                     },
                     element,
                     value: Layout::of([value]),

@@ -26,6 +26,6 @@ fn the_same_state_for_the_same_fuel() {
     state.digest(&mut digest);
     assert_eq!(
         (digest.to_string().as_str(), used),
-        ("102c01f7cb155ab3", 275)
+        ("102c01f7cb155ab3", 290)
     );
 }

@@ -125,3 +125,49 @@ fn keys_and_values_are_copies() {
         [0]
     );
 }
+
+#[test]
+fn counting_is_as_in_the_standard_map() {
+    let declarations = "type Text\ntype Map[Int, Int]\ntype Map[type0, Int]\n";
+    let by_number = program(&format!(
+        "{declarations}function numbers function (Int, Int, type1) (type1) registers 4 objects 2\n\
+         map_add b0 r0 b0 r1 type1\n map_add_constant b0 r0 b0 -2 type1\n return #1 #2"
+    ));
+    let by_text = program(&format!(
+        "{declarations}function texts function (Int, Int, type2, type0) (type2) registers 4 objects 3\n\
+         map_add b0 r0 b1 r1 type2\n map_add_constant b0 r0 b1 -2 type2\n return #1 #3"
+    ));
+    let names: Vec<Object> = (0..40)
+        .map(|k| format!("name {k}").as_str().into())
+        .collect();
+    let mut random = Random::keyed(3, &[0]);
+    let mut standard: BTreeMap<i64, i64> = BTreeMap::new();
+    let (mut numbers, mut texts) = (Object::EMPTY, Object::EMPTY);
+    for _ in 0..2_000 {
+        let (key, amount) = (i64::from(random.below(40)), i64::from(random.below(9)));
+        *standard.entry(key).or_default() += amount - 2;
+        // Texts are looked up by the object that is the key, and by others with the same characters.
+        let name = match random.chance(0.5) {
+            true => names[key as usize].clone(),
+            false => format!("name {key}").as_str().into(),
+        };
+        let run = |code: &Program, objects: &[Object]| {
+            let (_, objects) = call(code, &[key as u64, amount as u64], objects).expect("no error");
+            objects[0].clone()
+        };
+        let held = numbers.clone();
+        let before = held.map().map(|map| map.values().scalars().to_vec());
+        numbers = run(&by_number, &[numbers]);
+        texts = run(&by_text, &[texts, name]);
+        let after = held.map().map(|map| map.values().scalars().to_vec());
+        assert_eq!(before, after, "a copy keeps what it has");
+    }
+    let sums: Vec<u64> = standard.values().map(|sum| *sum as u64).collect();
+    let values = |map: &Object| map.map().expect("a map").values().scalars().to_vec();
+    assert_eq!(values(&numbers), sums);
+    let named = standard
+        .iter()
+        .map(|(k, sum)| (format!("name {k}"), *sum as u64));
+    let named: BTreeMap<String, u64> = named.collect();
+    assert_eq!(values(&texts), named.into_values().collect::<Vec<u64>>());
+}

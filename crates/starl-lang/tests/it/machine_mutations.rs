@@ -53,8 +53,8 @@ fn object(program: &Program, kind: u16, random: &mut Random) -> Object {
             list(program, &parts.element, length, random).into()
         }
         ObjectType::Map(..) => Body::Map(Map::new(
-            list(program, &parts.element, length, random),
-            list(program, &parts.value, length, random),
+            &list(program, &parts.element, length, random),
+            &list(program, &parts.value, length, random),
         ))
         .into(),
         ObjectType::Area | ObjectType::Obstacles => Object::EMPTY,

@@ -124,6 +124,8 @@ fn types_of_objects() {
         "set_unite b0 b0 type1",
         "map_put b0 r0 b1 type3",
         "map_at b0 r0 b0 r1 b2 type1",
+        "map_add b0 r0 b1 r0 type3",
+        "map_add_constant b0 r0 b1 1 type3",
         "map_keys b2 b0 type2",
         "polygon b2 b0",
         "area_contains r1 b0 r0",

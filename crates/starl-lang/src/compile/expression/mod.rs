@@ -15,13 +15,14 @@ mod small;
 mod span;
 mod text;
 
+use crate::check::Method;
 use crate::compile::body::Location;
 use crate::compile::body::{Body, Slot};
 use crate::compile::constant::folded;
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::compile::unit::Routine;
-use crate::ir::{Expression, ExpressionKind, Operator, RobotMember};
+use crate::ir::{Expression, ExpressionKind, Operator, RobotMember, Type};
 use crate::machine::Instruction;
 use crate::machine::operand::ObjectIn;
 
@@ -64,6 +65,9 @@ impl<'p> Body<'_, 'p> {
             ExpressionKind::Field { base, field } => (base, self.field_offset(&base.ty, *field)),
             ExpressionKind::Coordinate { base, axis } => (base, Size::new(u32::from(*axis), 0)),
             ExpressionKind::Unwrap(base) => (base, Size::SCALAR),
+            ExpressionKind::Default { optional, .. } if self.counted(expression).is_some() => {
+                (optional, Size::SCALAR)
+            }
             _ => return Ok(None),
         };
         if is_located(base) {
@@ -77,6 +81,25 @@ impl<'p> Body<'_, 'p> {
             });
         }
         Ok(Some(whole.at(offset)))
+    }
+
+    /// The map and the key of `m.get(k) ?? 0`: zero is what looking up a key gives that is missing.
+    pub fn counted(&self, expression: &'p Expression) -> Option<(&'p Expression, &'p Expression)> {
+        let ExpressionKind::Default { optional, default } = &expression.kind else {
+            return None;
+        };
+        let ExpressionKind::Method {
+            receiver,
+            method: Method::MapGet,
+            arguments,
+        } = &optional.kind
+        else {
+            return None;
+        };
+        let is_value = matches!(&receiver.ty, Type::Map(_, value) if **value == default.ty);
+        let is_zero = folded(&self.unit.known, default) == Some(0);
+        let key = arguments.first()?;
+        (is_value && is_zero).then_some((receiver, key))
     }
 
     /// The object as an operand: that of a register or of a variable of the state.

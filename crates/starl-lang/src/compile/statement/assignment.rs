@@ -2,11 +2,14 @@
 
 use crate::check::Builtin;
 use crate::compile::body::{Body, Location, Slot};
+use crate::compile::constant::folded;
 use crate::compile::expression::arithmetic::Left;
+use crate::compile::expression::is_located;
 use crate::compile::problem::Compiled;
 use crate::compile::statement::way::{Prepared, Way};
 use crate::ir::{Expression, ExpressionKind, LocalId, Operator, Place, Root, Step, Type};
 use crate::machine::Instruction;
+use crate::machine::operand::Short;
 
 impl<'p> Body<'_, 'p> {
     /// `place = value`
@@ -86,7 +89,7 @@ impl<'p> Body<'_, 'p> {
         }
     }
 
-    /// The value that `x = x + value` appends to a text or a list.
+    /// The value that `x = x + value` appends to a text or a list, and that `m[k] = (m.get(k) ?? 0) + value` adds.
     fn grown(&self, place: &Place, value: &'p Expression) -> Option<&'p Expression> {
         let ExpressionKind::Binary {
             operator: Operator::Add,
@@ -96,13 +99,17 @@ impl<'p> Body<'_, 'p> {
         else {
             return None;
         };
-        let is_same = match (&place.root, &left.kind) {
-            (Root::Local(local), ExpressionKind::Local(other)) => local == other,
-            (Root::Variable(id), ExpressionKind::Variable(other)) => id == other,
-            _ => false,
-        };
+        if let [Step::Key(key)] = &place.path[..] {
+            let (receiver, argument) = self.counted(left)?;
+            let is_same = match (&key.kind, &argument.kind) {
+                (ExpressionKind::Local(own), ExpressionKind::Local(other)) => own == other,
+                (ExpressionKind::Variable(own), ExpressionKind::Variable(other)) => own == other,
+                _ => false,
+            };
+            return (is_root(&place.root, receiver) && is_same).then_some(right);
+        }
         let grows = matches!(value.ty, Type::String | Type::List(_));
-        (is_same && grows && place.path.is_empty()).then_some(right)
+        (is_root(&place.root, left) && grows && place.path.is_empty()).then_some(right)
     }
 
     /// `place += value` and the like.
@@ -112,6 +119,13 @@ impl<'p> Body<'_, 'p> {
         operator: Operator,
         value: &'p Expression,
     ) -> Compiled {
+        // A number that is known or in a register or variable can be read before the map.
+        if let Some(Step::Key(key)) = place.path.last()
+            && (operator, &value.ty) == (Operator::Add, &Type::Int)
+            && (is_located(value) || folded(&self.unit.known, value).is_some())
+        {
+            return self.count(place, key, value);
+        }
         let mark = self.mark();
         let prepared = self.prepare(place)?;
         let adds = matches!(operator, Operator::Add | Operator::Subtract);
@@ -142,12 +156,60 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
+    /// `m[key] += value` with whole numbers.
+    fn count(&mut self, place: &'p Place, key: &'p Expression, value: &'p Expression) -> Compiled {
+        let mark = self.mark();
+        let steps = place.path.len() - 1;
+        let prepared = self.prepare_some(place, steps)?;
+        let key = self.value(key)?;
+        let constant =
+            folded(&self.unit.known, value).and_then(|bits| i16::try_from(bits as i64).ok());
+        let amount = match constant {
+            Some(_) => key,
+            None => self.value(value)?,
+        };
+        let (mut way, _) = self.go(place, &prepared, steps, false)?;
+        let kind = self.object_type(way.ty)?;
+        let map = self.container(&mut way)?;
+        let (scalars, objects) = (key.block(), key.objects());
+        self.at(place.span, |body| {
+            body.emit(match constant {
+                Some(amount) => Instruction::MapAddConstant {
+                    map,
+                    scalars,
+                    objects,
+                    amount: Short(amount),
+                    kind,
+                },
+                None => Instruction::MapAdd {
+                    map,
+                    scalars,
+                    objects,
+                    amount: amount.input(),
+                    kind,
+                },
+            });
+        });
+        self.write_back(way.back)?;
+        self.release(mark);
+        Ok(())
+    }
+
     /// Puts a key and its value into the map that a way has come to.
     fn put_entry(&mut self, mut way: Way<'p>, entry: Slot) -> Compiled {
         let kind = self.object_type(way.ty)?;
         let map = self.container(&mut way)?;
         self.map_put(map, entry, kind);
         self.write_back(way.back)
+    }
+}
+
+/// Whether this is the variable where a place begins.
+fn is_root(root: &Root, expression: &Expression) -> bool {
+    match (root, &expression.kind) {
+        (Root::Local(local), ExpressionKind::Local(other)) => local == other,
+        (Root::Variable(id), ExpressionKind::Variable(other)) => id == other,
+        _ => false,
     }
 }
 

@@ -45,9 +45,18 @@ pub(super) struct Way<'p> {
 impl<'p> Body<'_, 'p> {
     /// Computes the indices and keys of a way.
     pub(super) fn prepare(&mut self, place: &'p Place) -> Compiled<Vec<Prepared>> {
+        self.prepare_some(place, place.path.len())
+    }
+
+    /// Computes the indices and keys of this number of steps of a way.
+    pub(super) fn prepare_some(
+        &mut self,
+        place: &'p Place,
+        steps: usize,
+    ) -> Compiled<Vec<Prepared>> {
         let mut ty = self.root_type(&place.root)?;
         let mut prepared = Vec::new();
-        for step in &place.path {
+        for step in place.path.iter().take(steps) {
             prepared.push(match step {
                 Step::Field(_) | Step::Coordinate(_) => Prepared::Nothing,
                 Step::Index(index) => Prepared::Index(self.value(index)?.input()),

@@ -8,12 +8,12 @@ use super::scalar;
 use crate::machine::error::{Fault, RuntimeError};
 use crate::machine::host::Host;
 use crate::machine::instruction::Instruction;
-use crate::machine::interpreter::maps::{get_scalars, put_scalars};
+use crate::machine::interpreter::maps::found;
 use crate::machine::interpreter::view::{Meter, View, object_at, object_at_mut, shift};
 use crate::machine::interpreter::workspace::{Frame, OBJECT_WINDOW, Registers, WINDOW, Workspace};
-use crate::machine::operand::{PointIn, PointOut};
+use crate::machine::operand::{ObjectInOut, PointIn, PointOut};
 use crate::machine::program::{Known, Program};
-use crate::machine::types::bits;
+use crate::machine::types::{Keys, Parts, bits};
 use crate::machine::value::object::{Body, Object};
 use crate::machine::value::state::State;
 use starl_core::{Point, RobotId};
@@ -500,7 +500,7 @@ impl Execution<'_> {
                         let object = object_at(objects, object_base, state, list.0);
                         let list = object.ok().and_then(Object::list);
                         let index = r[index.place()];
-                        match list.and_then(|list| list.scalars_at(index)) {
+                        match list.and_then(|list| list.scalars_at(index, 0)) {
                             Some(element) if element.len() < 8 => {
                                 for (offset, &word) in element.iter().enumerate() {
                                     r[(scalars.place() + offset) % WINDOW] = word;
@@ -529,7 +529,7 @@ impl Execution<'_> {
                         let element = object
                             .ok()
                             .and_then(Object::own_list_mut)
-                            .and_then(|list| list.scalars_at_mut(r[index.place()]));
+                            .and_then(|list| list.scalars_at_mut(r[index.place()], 0));
                         match element {
                             Some(element) if element.len() < 8 => {
                                 for (offset, word) in element.iter_mut().enumerate() {
@@ -539,44 +539,12 @@ impl Execution<'_> {
                             _ => object_instruction!(instruction),
                         }
                     }
-                    MapGet {
-                        map,
-                        scalars,
-                        objects: key,
-                        to,
-                        kind,
-                        ..
-                    } => {
-                        let (objects, state) = (&self.workspace.objects, &self.state.objects);
-                        let map = object_at(objects, object_base, state, map.0).ok();
-                        let text = objects.get(object_base + key.place());
-                        let key = (scalars.place(), text);
-                        match get_scalars(map, key, to.place(), program.parts_of(kind), r) {
+                    MapGet { .. } | MapPut { .. } | MapAdd { .. } | MapAddConstant { .. } => {
+                        match self.map_instruction(instruction, base, object_base) {
                             Some(()) => spend!(3),
                             None => object_instruction!(instruction),
                         }
-                    }
-                    MapPut {
-                        map,
-                        scalars,
-                        objects: key,
-                        kind,
-                    } => {
-                        let (objects, state) =
-                            (&mut self.workspace.objects, &mut self.state.objects);
-                        let place = object_at_mut(objects, object_base, state, map.0);
-                        let mut taken = place.ok().map(core::mem::take);
-                        let text = objects.get(object_base + key.place());
-                        let key = (scalars.place(), text);
-                        let put = put_scalars(taken.as_mut(), key, program.parts_of(kind), r);
-                        let place = object_at_mut(objects, object_base, state, map.0);
-                        if let (Ok(place), Some(map)) = (place, taken) {
-                            *place = map;
-                        }
-                        match put {
-                            Some(()) => spend!(3),
-                            None => object_instruction!(instruction),
-                        }
+                        continue 'run;
                     }
                     Size { to, from } => {
                         let (objects, state) = (&self.workspace.objects, &self.state.objects);
@@ -607,6 +575,86 @@ impl Execution<'_> {
         object_base: usize,
     ) -> Result<u64, Fault> {
         self.view(base, object_base)?.execute(instruction)
+    }
+
+    /// Executes an instruction on an entry of a map that is found without a search and whose value is scalars alone.
+    #[inline(never)]
+    fn map_instruction(
+        &mut self,
+        instruction: Instruction,
+        base: usize,
+        object_base: usize,
+    ) -> Option<()> {
+        use Instruction::{MapAdd, MapAddConstant, MapGet, MapPut};
+        let program = self.program;
+        let (objects, state) = (&mut self.workspace.objects, &mut self.state.objects);
+        let r = self.workspace.scalars.get_mut(base..)?;
+        let r: &mut Registers = r.first_chunk_mut()?;
+        match instruction {
+            MapGet {
+                map,
+                scalars,
+                objects: key,
+                to,
+                kind,
+                ..
+            } => {
+                let map = object_at(objects, object_base, state, map.0).ok()?.map()?;
+                let key = (scalars.place(), object_base + key.place());
+                let at = found(map, key, program.parts_of(kind)?, r, objects)?;
+                let value = map.scalars_at(at)?;
+                if value.len() >= 8 {
+                    return None;
+                }
+                let to = to.place();
+                r[to] = 1;
+                for (offset, &word) in value.iter().enumerate() {
+                    r[(to + 1 + offset) % WINDOW] = word;
+                }
+            }
+            MapPut {
+                map,
+                scalars,
+                objects: key,
+                kind,
+            } => {
+                let key = (scalars.place(), object_base + key.place());
+                let parts = program.parts_of(kind)?;
+                let value = changed(map, key, parts, r, objects, object_base, state)?;
+                let start = key.0 + usize::from(parts.keys == Keys::Numbers);
+                for (offset, word) in value.iter_mut().enumerate() {
+                    *word = r[(start + offset) % WINDOW];
+                }
+            }
+            MapAdd {
+                map,
+                scalars,
+                objects: key,
+                amount,
+                kind,
+            } => {
+                let key = (scalars.place(), object_base + key.place());
+                let parts = program.parts_of(kind)?;
+                let value = changed(map, key, parts, r, objects, object_base, state)?;
+                let [value] = value else { return None };
+                *value = (*value as i64).checked_add(r[amount.place()] as i64)? as u64;
+            }
+            MapAddConstant {
+                map,
+                scalars,
+                objects: key,
+                amount,
+                kind,
+            } => {
+                let key = (scalars.place(), object_base + key.place());
+                let parts = program.parts_of(kind)?;
+                let value = changed(map, key, parts, r, objects, object_base, state)?;
+                let [value] = value else { return None };
+                *value = (*value as i64).checked_add(amount.0.into())? as u64;
+            }
+            _ => return None,
+        }
+        Some(())
     }
 
     /// Puts what a function is known to give where its results belong; gives what it costs beyond one.
@@ -649,6 +697,23 @@ impl Execution<'_> {
             meter: &mut self.meter,
         })
     }
+}
+
+/// The value of a key, to be changed, if it is scalars alone that are found without a search.
+#[inline(always)]
+fn changed<'a>(
+    map: ObjectInOut,
+    key: (usize, usize),
+    parts: &Parts,
+    r: &Registers,
+    objects: &'a mut [Object],
+    object_base: usize,
+    state: &'a mut [Object],
+) -> Option<&'a mut [u64]> {
+    let read = object_at(objects, object_base, state, map.0).ok()?;
+    let at = found(read.map()?, key, parts, r, objects)?;
+    let written = object_at_mut(objects, object_base, state, map.0).ok()?;
+    written.own_map_mut()?.scalars_at_mut(at)
 }
 
 /// Puts a shared object into a register if that is within the memory that is known to be left; gives what it costs.

@@ -1,76 +1,32 @@
 //! Instructions on maps.
 
 use crate::machine::error::Fault;
-use crate::machine::interpreter::lists::insert;
 use crate::machine::interpreter::view::{View, object_at, shift, write_scalars};
 use crate::machine::interpreter::workspace::{Registers, WINDOW};
-use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, Type};
-use crate::machine::types::Parts;
-use crate::machine::value::object::{self, Map, Object};
+use crate::machine::operand::{
+    Block, In, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, Type,
+};
+use crate::machine::types::{Keys, Parts};
+use crate::machine::value::object::{self, List, Map, Object};
+use alloc::vec::Vec;
 
 /// Where a value stands in registers: its first scalar and its first object.
 type Place = (Block, ObjectBlock);
 
-/// A key in registers: the place of its first scalar, and its first object.
-type Key<'a> = (usize, Option<&'a Object>);
-
-/// Reads the value of a key that is found without a search, if it is scalars alone.
-#[inline(never)]
-pub fn get_scalars(
-    map: Option<&Object>,
-    key: Key<'_>,
-    to: usize,
-    parts: Option<&Parts>,
-    r: &mut Registers,
-) -> Option<()> {
-    let value = map?.map()?.scalars_of(hashed(key, parts?, r)?)?;
-    if value.len() >= 8 {
-        return None;
-    }
-    r[to % WINDOW] = 1;
-    for (offset, &word) in value.iter().enumerate() {
-        r[(to + 1 + offset) % WINDOW] = word;
-    }
-    Some(())
-}
-
-/// Replaces the value of a key that is found without a search, if it is scalars alone.
-#[inline(never)]
-pub fn put_scalars(
-    map: Option<&mut Object>,
-    key: Key<'_>,
-    parts: Option<&Parts>,
-    r: &Registers,
-) -> Option<()> {
-    let parts = parts?;
-    let place = map?.own_map_mut()?.scalars_of_mut(hashed(key, parts, r)?)?;
-    let start = key.0 + parts.element.scalars.len();
-    for (offset, word) in place.iter_mut().enumerate() {
-        *word = r[(start + offset) % WINDOW];
-    }
-    Some(())
-}
-
-/// The key, if an index may have it.
+/// The index of a key in registers, if it is found without a search. The key is at these places.
 #[inline(always)]
-fn hashed<'a>(
-    (place, text): Key<'a>,
+pub fn found(
+    map: &Map,
+    (scalar, object): (usize, usize),
     parts: &Parts,
-    r: &'a Registers,
-) -> Option<object::Block<'a>> {
-    if !parts.has_hashed_keys {
-        return None;
+    r: &Registers,
+    objects: &[Object],
+) -> Option<usize> {
+    match parts.keys {
+        Keys::Numbers => map.find_number(r[scalar % WINDOW]),
+        Keys::Texts => map.find_text(objects.get(object)?),
+        Keys::Others => None,
     }
-    Some(match parts.element.objects.len() {
-        0 => object::Block {
-            scalars: r.get(place..=place)?,
-            objects: &[],
-        },
-        _ => object::Block {
-            scalars: &[],
-            objects: core::slice::from_ref(text?),
-        },
-    })
 }
 
 impl View<'_> {
@@ -82,33 +38,36 @@ impl View<'_> {
         kind: Type,
     ) -> Result<u64, Fault> {
         let parts = self.parts(kind)?;
-        let (key, value) = (&parts.element, &parts.value);
         let found = self.map_search(ObjectIn(map.0), (scalars, objects), parts)?;
         self.change(map, |object, view| {
-            let key_block = view.block(scalars, objects, key)?;
-            let value_block = view.block_of(
-                Block(scalars.0.wrapping_add(key.scalars.len() as u8)),
-                value.scalars.len(),
-                ObjectBlock(objects.0.wrapping_add(key.objects.len() as u8)),
-                value.objects.len(),
-            )?;
-            let map = object.map_mut().ok_or(Fault::Malformed)?;
-            if let Some(at) = found {
-                let values = map.values_mut().list_mut(value).ok_or(Fault::Malformed)?;
-                let cost = shift(value_block.objects.iter().map(Object::bytes).sum());
-                let set = values.set(at, value_block);
-                return set.then_some(3 + cost).ok_or(Fault::Malformed);
-            }
-            let place = map
-                .keys()
-                .list()
-                .map(|keys| keys.search(key_block, key, &view.program.parts));
-            let (Err(at) | Ok(at)) = place.unwrap_or(Err(0));
-            let (keys, values) = map.parts_mut();
-            let keys = keys.list_mut(key).ok_or(Fault::Malformed)?;
-            let cost = insert(keys, at, key_block)?;
-            let values = values.list_mut(value).ok_or(Fault::Malformed)?;
-            Ok(3 + cost + insert(values, at, value_block)?)
+            let (key, value) = (&parts.element, &parts.value);
+            let width = key.scalars.len() + value.scalars.len();
+            let object_width = key.objects.len() + value.objects.len();
+            let entry = view.block_of(scalars, width, objects, object_width)?;
+            put(object, found, entry, parts, view)
+        })
+    }
+
+    pub fn map_add(
+        &mut self,
+        map: ObjectInOut,
+        key: Place,
+        amount: i64,
+        kind: Type,
+    ) -> Result<u64, Fault> {
+        let parts = self.parts(kind)?;
+        let found = self.map_search(ObjectIn(map.0), key, parts)?;
+        self.change(map, |object, view| {
+            let held = found.and_then(|at| object.map()?.scalars_at(at)?.first().copied());
+            let sum = amount.checked_add(held.unwrap_or(0) as i64);
+            let key = view.block(key.0, key.1, &parts.element)?;
+            let mut scalars = Vec::from(key.scalars);
+            scalars.push(sum.ok_or(Fault::Overflow)? as u64);
+            let entry = object::Block {
+                scalars: &scalars,
+                objects: key.objects,
+            };
+            put(object, found, entry, parts, view)
         })
     }
 
@@ -127,21 +86,16 @@ impl View<'_> {
     /// Writes the value at an index to registers.
     fn map_value(&mut self, map: ObjectIn, at: usize, to: (usize, usize)) -> Result<u64, Fault> {
         let object = object_at(self.objects, self.object_base, self.state, map.0)?;
-        let values = object.map().map(Map::values);
-        // A value of scalars alone is copied at once; objects need the list to be held.
-        if let Some(value) = values.and_then(Object::list).and_then(|v| v.get(at))
+        // A value of scalars alone is copied at once; objects need the map to be held.
+        if let Some([_, value]) = object.map().and_then(|map| map.get(at))
             && value.objects.is_empty()
         {
             write_scalars(self.registers, to.0, value.scalars)?;
             return Ok(value.scalars.len() as u64 / 8);
         }
-        let values = values.cloned();
-        match values
-            .as_ref()
-            .and_then(Object::list)
-            .and_then(|v| v.get(at))
-        {
-            Some(value) => self.set_block(value, to),
+        let held = object.clone();
+        match held.map().and_then(|map| map.get(at)) {
+            Some([_, value]) => self.set_block(value, to),
             None => Err(Fault::Malformed),
         }
     }
@@ -212,14 +166,9 @@ impl View<'_> {
             return Ok(3);
         };
         self.change(map, |object, _| {
-            let map = object.map_mut().ok_or(Fault::Malformed)?;
-            let mut cost = 3;
-            let (keys, values) = map.parts_mut();
-            for half in [keys, values] {
-                let list = half.existing_list_mut().ok_or(Fault::Malformed)?;
-                cost += shift(list.bytes_from(at));
-                list.remove(at);
-            }
+            let map = object.map_mut(parts).ok_or(Fault::Malformed)?;
+            let cost = 3 + shift(map.bytes_from(at));
+            map.remove(at);
             Ok(cost)
         })
     }
@@ -233,17 +182,45 @@ impl View<'_> {
     ) -> Result<u64, Fault> {
         let index = self.scalar(index) as i64;
         let at = usize::try_from(index).unwrap_or(usize::MAX);
-        let object = self.read(map)?;
-        let keys = object.map().map(|map| map.keys().clone());
-        let Some(key) = keys.as_ref().and_then(Object::list).and_then(|k| k.get(at)) else {
+        let object = self.read(map)?.clone();
+        let Some(entry) = object.map().and_then(|map| map.entry(at)) else {
             let length = object.size() as u32;
             return Err(Fault::IndexOutOfRange { index, length });
         };
-        let value = (
-            scalars.place() + key.scalars.len(),
-            objects.place() + key.objects.len(),
-        );
-        let cost = self.set_block(key, (scalars.place(), objects.place()))?;
-        Ok(cost + self.map_value(map, at, value)?)
+        self.set_block(entry, (scalars.place(), objects.place()))
     }
+
+    /// Copies the keys or the values of a map.
+    pub fn map_half(
+        &mut self,
+        to: ObjectOut,
+        map: ObjectIn,
+        half: fn(&Map) -> List,
+    ) -> Result<u64, Fault> {
+        let map = self.read(map)?.map().filter(|map| !map.is_empty());
+        let half = map.map_or(Object::EMPTY, |map| half(map).into());
+        self.share(to, half)
+    }
+}
+
+/// Puts an entry into a map whose key is at this index, or nowhere.
+fn put(
+    object: &mut Object,
+    found: Option<usize>,
+    entry: object::Block<'_>,
+    parts: &Parts,
+    view: &View<'_>,
+) -> Result<u64, Fault> {
+    let map = object.map_mut(parts).ok_or(Fault::Malformed)?;
+    let [key, value] = map.split(entry);
+    let held = |objects: &[Object]| objects.iter().map(Object::bytes).sum::<usize>();
+    let (done, moved) = match found {
+        Some(at) => (map.set(at, value), held(value.objects)),
+        None => {
+            let at = map.place(key, parts, &view.program.parts);
+            let moved = map.bytes_from(at) + held(entry.objects);
+            (map.insert(at, entry), moved)
+        }
+    };
+    done.then_some(3 + shift(moved)).ok_or(Fault::Malformed)
 }

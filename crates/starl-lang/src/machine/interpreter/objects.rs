@@ -8,7 +8,7 @@ use crate::machine::interpreter::view::{View, shift};
 use crate::machine::operand::{
     Block, ImportIndex, In, ObjectBlock, ObjectIn, ObjectOut, ObjectSlot, Out,
 };
-use crate::machine::value::object::Object;
+use crate::machine::value::object::{Map, Object};
 use core::cmp::Ordering;
 use starl_core::{Area, ConvexPolygon, Point, RobotId};
 
@@ -148,14 +148,22 @@ impl View<'_> {
                     to_objects,
                     kind,
                 } => self.map_at(map, (scalars, objects), (to, to_objects), kind),
-                MapKeys { to, map, .. } => {
-                    let keys = self.read(map)?.map().map(|map| map.keys().clone());
-                    self.share(to, keys.unwrap_or_default())
-                }
-                MapValues { to, map, .. } => {
-                    let values = self.read(map)?.map().map(|map| map.values().clone());
-                    self.share(to, values.unwrap_or_default())
-                }
+                MapAdd {
+                    map,
+                    scalars,
+                    objects,
+                    amount,
+                    kind,
+                } => self.map_add(map, (scalars, objects), self.scalar(amount) as i64, kind),
+                MapAddConstant {
+                    map,
+                    scalars,
+                    objects,
+                    amount,
+                    kind,
+                } => self.map_add(map, (scalars, objects), amount.0.into(), kind),
+                MapKeys { to, map, .. } => self.map_half(to, map, Map::keys),
+                MapValues { to, map, .. } => self.map_half(to, map, Map::values),
                 Circle { to, center, radius } => self.circle(to, center.0, radius),
                 AreaContains { to, area, point } => self.area_contains(to, area, point.0),
                 _ => Err(Fault::Malformed), // the loop executes all others

@@ -116,15 +116,12 @@ impl Writer<'_> {
                 return list.iter().try_for_each(|block| self.block(element, block));
             }
             ObjectType::Map(key, value) => {
-                let empty = Map::default();
-                let map = object.map().unwrap_or(&empty);
-                self.number(map.keys().size() as u64);
-                if let (Some(keys), Some(values)) = (map.keys().list(), map.values().list()) {
-                    return keys.iter().zip(values.iter()).try_for_each(|(k, v)| {
-                        self.block(key, k)?;
-                        self.block(value, v)
-                    });
-                }
+                self.number(object.size() as u64);
+                let mut entries = object.map().into_iter().flat_map(Map::iter);
+                return entries.try_for_each(|[k, v]| {
+                    self.block(key, k)?;
+                    self.block(value, v)
+                });
             }
         }
         Some(())
@@ -266,7 +263,7 @@ impl<'a> Reader<'a> {
                 if !ascending(&keys, parts, &program.parts) {
                     return None;
                 }
-                Body::Map(Map::new(keys, values)).into()
+                Body::Map(Map::new(&keys, &values)).into()
             }
         };
         Some(object)

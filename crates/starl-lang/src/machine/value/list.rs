@@ -8,6 +8,7 @@
 use crate::machine::types::{Layout, Order, Parts, bits};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
+use core::num::NonZeroUsize;
 use core::ops::Range;
 use serde::{Deserialize, Serialize};
 
@@ -22,8 +23,8 @@ pub trait Item: Clone + Default {
     /// The characters of a text.
     fn text(&self) -> &str;
 
-    /// Whether both are one object in memory.
-    fn is_shared(&self, other: &Self) -> bool;
+    /// Where it lies in memory; none if it is empty.
+    fn address(&self) -> Option<NonZeroUsize>;
 
     /// The order of two objects of this type.
     fn compare(&self, other: &Self, kind: u16, types: &[Parts]) -> Ordering;
@@ -111,6 +112,11 @@ impl<T: Item> List<T> {
         self.length == 0
     }
 
+    /// How many scalars and objects each element has.
+    pub fn widths(&self) -> (u8, u8) {
+        (self.width, self.object_width)
+    }
+
     /// The size as if nothing were shared, bytes.
     pub fn bytes(&self) -> usize {
         WORD * (4 + self.scalars.len() + self.objects.len()) + self.held
@@ -140,11 +146,11 @@ impl<T: Item> List<T> {
         })
     }
 
-    /// The scalars of the element at an index, of a list whose elements hold no objects.
+    /// The scalars of the element at an index, of a list whose elements hold this number of objects.
     #[inline]
-    pub fn scalars_at(&self, index: u64) -> Option<&[u64]> {
+    pub fn scalars_at(&self, index: u64, objects: u8) -> Option<&[u64]> {
         let width = usize::from(self.width);
-        if self.object_width > 0 || index >= u64::from(self.length) {
+        if self.object_width != objects || index >= u64::from(self.length) {
             return None;
         }
         let start = index as usize * width;
@@ -153,13 +159,27 @@ impl<T: Item> List<T> {
 
     /// As [`List::scalars_at`], to be changed.
     #[inline]
-    pub fn scalars_at_mut(&mut self, index: u64) -> Option<&mut [u64]> {
+    pub fn scalars_at_mut(&mut self, index: u64, objects: u8) -> Option<&mut [u64]> {
         let width = usize::from(self.width);
-        if self.object_width > 0 || index >= u64::from(self.length) {
+        if self.object_width != objects || index >= u64::from(self.length) {
             return None;
         }
         let start = index as usize * width;
         self.scalars.get_mut(start..start + width)
+    }
+
+    /// The first scalar of the element at an index.
+    #[inline]
+    pub fn first_scalar(&self, index: usize) -> Option<u64> {
+        let is_there = index < self.len();
+        is_there.then(|| self.scalars.get(index * usize::from(self.width)).copied())?
+    }
+
+    /// The first object of the element at an index.
+    #[inline]
+    pub fn first_object(&self, index: usize) -> Option<&T> {
+        let is_there = index < self.len();
+        is_there.then(|| self.objects.get(index * usize::from(self.object_width)))?
     }
 
     /// The element at an index, of a list whose elements are one object each.
@@ -186,12 +206,23 @@ impl<T: Item> List<T> {
     /// Replaces an element by a block; false if there is no such element or the block has another width.
     #[must_use]
     pub fn set(&mut self, index: usize, block: Block<'_, T>) -> bool {
-        if index == self.len() || !self.fits(index, block) {
+        self.fits(index, block) && self.set_end(index, block)
+    }
+
+    /// Replaces the end of an element by a block; false if there is no such element or the block is wider.
+    #[must_use]
+    pub fn set_end(&mut self, index: usize, block: Block<'_, T>) -> bool {
+        let (end, object_end) = self.starts(index + 1);
+        let (width, object_width) = (block.scalars.len(), block.objects.len());
+        if index >= self.len()
+            || width > usize::from(self.width)
+            || object_width > usize::from(self.object_width)
+        {
             return false;
         }
-        let (start, object_start) = self.starts(index);
-        self.scalars[start..start + block.scalars.len()].copy_from_slice(block.scalars);
-        for (place, object) in self.objects[object_start..].iter_mut().zip(block.objects) {
+        self.scalars[end - width..end].copy_from_slice(block.scalars);
+        let places = &mut self.objects[object_end - object_width..object_end];
+        for (place, object) in places.iter_mut().zip(block.objects) {
             self.held = self.held - place.bytes() + object.bytes();
             *place = object.clone();
         }
@@ -287,6 +318,38 @@ impl<T: Item> List<T> {
         arranged
     }
 
+    /// Each element followed by the one at the same index of another list.
+    pub fn zipped(&self, other: &List<T>) -> List<T> {
+        let mut zipped = List {
+            width: self.width.wrapping_add(other.width),
+            object_width: self.object_width.wrapping_add(other.object_width),
+            ..List::default()
+        };
+        for (left, right) in self.iter().zip(other.iter()) {
+            for block in [left, right] {
+                zipped.scalars.extend_from_slice(block.scalars);
+                zipped.objects.extend_from_slice(block.objects);
+            }
+            zipped.length += 1;
+        }
+        zipped.held = zipped.objects.iter().map(T::bytes).sum();
+        zipped
+    }
+
+    /// The same part of each element: the scalars and objects from the first pair of indices to before the second.
+    pub fn parts(&self, from: (u8, u8), to: (u8, u8)) -> List<T> {
+        let mut parts = List {
+            width: to.0.saturating_sub(from.0),
+            object_width: to.1.saturating_sub(from.1),
+            ..List::default()
+        };
+        for block in self.iter() {
+            let [block, _] = block.split(to);
+            let _ = parts.push(block.split(from)[1]); // as wide as the others
+        }
+        parts
+    }
+
     /// The indices of the elements in ascending order; equal ones in the order that they have.
     pub fn order(&self, layout: &Layout, types: &[Parts]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.len()).collect();
@@ -314,27 +377,8 @@ impl<T: Item> List<T> {
         self.arranged((0..self.len()).filter(first))
     }
 
-    /// Whether the element at an index is this one, where each is one Integer or one text.
-    #[inline]
-    pub fn is_at(&self, index: usize, block: Block<'_, T>) -> bool {
-        let is_same = |text: &T| {
-            let found = self.objects.get(index);
-            block.scalars.is_empty() && found.is_some_and(|found| found.text() == text.text())
-        };
-        self.is_surely_at(index, block) || matches!(block.objects, [text] if is_same(text))
-    }
-
-    /// Whether the element at an index is this one, as far as that shows without comparing texts.
-    #[inline]
-    pub fn is_surely_at(&self, index: usize, block: Block<'_, T>) -> bool {
-        match (block.scalars, block.objects) {
-            ([scalar], []) => self.scalars.get(index) == Some(scalar),
-            ([], [text]) => self.objects.get(index).is_some_and(|o| o.is_shared(text)),
-            _ => false,
-        }
-    }
-
-    /// The index of a block in a sorted list, or the index at which it belongs.
+    /// The index of a block in a sorted list, or the index at which it belongs. Only the beginning of each element is
+    /// compared if the layout is narrower.
     pub fn search(
         &self,
         block: Block<'_, T>,
@@ -345,20 +389,20 @@ impl<T: Item> List<T> {
             (&layout.scalars[..], &layout.objects[..], block.scalars)
         {
             let scalar = *scalar as i64;
-            return self
-                .scalars
-                .binary_search_by(|other| (*other as i64).cmp(&scalar));
+            return self.bisect(|index| self.first_scalar(index).map(|o| (o as i64).cmp(&scalar)));
         }
+        self.bisect(|index| Some(self.get(index)?.compare(block, layout, types)))
+    }
+
+    /// Binary search by how an element compares with what is looked for.
+    fn bisect(&self, compare: impl Fn(usize) -> Option<Ordering>) -> Result<usize, usize> {
         let (mut low, mut high) = (0, self.len());
         while low < high {
             let middle = low + (high - low) / 2;
-            let Some(other) = self.get(middle) else {
-                return Err(low);
-            };
-            match other.compare(block, layout, types) {
-                Ordering::Less => low = middle + 1,
-                Ordering::Greater => high = middle,
-                Ordering::Equal => return Ok(middle),
+            match compare(middle) {
+                Some(Ordering::Less) => low = middle + 1,
+                Some(Ordering::Equal) => return Ok(middle),
+                Some(Ordering::Greater) | None => high = middle,
             }
         }
         Err(low)
@@ -391,7 +435,18 @@ impl<T: Item> List<T> {
     }
 }
 
-impl<T: Item> Block<'_, T> {
+impl<'a, T: Item> Block<'a, T> {
+    /// Its first scalars and objects, and the others.
+    pub fn split(self, (scalars, objects): (u8, u8)) -> [Block<'a, T>; 2] {
+        let (left, right) = self
+            .scalars
+            .split_at(self.scalars.len().min(scalars.into()));
+        let objects = self
+            .objects
+            .split_at(self.objects.len().min(objects.into()));
+        [(left, objects.0), (right, objects.1)].map(|(scalars, objects)| Block { scalars, objects })
+    }
+
     /// The order of two values of one layout.
     pub fn compare(self, other: Self, layout: &Layout, types: &[Parts]) -> Ordering {
         let mut start = 0;

@@ -3,6 +3,7 @@
 pub(in crate::machine) mod codec;
 mod index;
 pub(in crate::machine) mod list;
+pub(in crate::machine) mod map;
 pub(in crate::machine) mod object;
 pub(in crate::machine) mod state;
 pub(in crate::machine) mod tree;

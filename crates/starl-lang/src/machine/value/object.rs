@@ -5,10 +5,11 @@
 //! empty collections needs no memory but its own.
 
 use crate::machine::types::{Layout, Parts};
-use crate::machine::value::index::{Found, Index};
 use crate::machine::value::list::{self, Item, WORD};
+use crate::machine::value::map;
 use alloc::string::String;
 use core::cmp::Ordering;
+use core::num::NonZeroUsize;
 use serde::{Deserialize, Serialize};
 use starl_core::{Area, Digest, Shape};
 use triomphe::Arc;
@@ -42,81 +43,8 @@ pub type List = list::List<Object>;
 /// One value, borrowed.
 pub type Block<'a> = list::Block<'a, Object>;
 
-/// Keys in ascending order without repetitions, and at the same index the value of each. Both are
-/// objects that hold lists, so that they can be had without copying.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Map {
-    /// The keys.
-    keys: Object,
-    /// The values.
-    values: Object,
-    #[serde(skip)]
-    pub(super) index: Index,
-}
-
-impl Map {
-    /// A map of these keys, which are in ascending order without repetitions, and the values at the same indices.
-    pub fn new(keys: impl Into<Object>, values: impl Into<Object>) -> Map {
-        Map {
-            keys: keys.into(),
-            values: values.into(),
-            index: Index::default(),
-        }
-    }
-
-    /// The keys, a list.
-    #[inline]
-    pub fn keys(&self) -> &Object {
-        &self.keys
-    }
-
-    /// The values, a list.
-    #[inline]
-    pub fn values(&self) -> &Object {
-        &self.values
-    }
-
-    /// The values, to be changed: there must be one for each key afterwards.
-    #[inline]
-    pub fn values_mut(&mut self) -> &mut Object {
-        &mut self.values
-    }
-
-    /// Both, to be changed in the same way.
-    pub fn parts_mut(&mut self) -> (&mut Object, &mut Object) {
-        self.index.forget();
-        (&mut self.keys, &mut self.values)
-    }
-
-    /// The value of a hashed key, if it is found without a search and is scalars alone.
-    #[inline]
-    pub fn scalars_of(&self, key: Block<'_>) -> Option<&[u64]> {
-        let at = self.index.find(self.keys.list()?, key).at()?;
-        self.values.list()?.scalars_at(at)
-    }
-
-    /// As [`Map::scalars_of`], to be changed; none if the values have another holder.
-    #[inline]
-    pub fn scalars_of_mut(&mut self, key: Block<'_>) -> Option<&mut [u64]> {
-        let at = self.index.find(self.keys.list()?, key).at()?;
-        self.values.own_list_mut()?.scalars_at_mut(at)
-    }
-
-    /// The index of a key.
-    #[inline]
-    pub fn find(&self, key: Block<'_>, parts: &Parts, types: &[Parts]) -> Option<usize> {
-        let keys = self.keys.list()?;
-        let found = match parts.has_hashed_keys {
-            true => self.index.find(keys, key),
-            false => Found::Unknown,
-        };
-        match found {
-            Found::At(at) => Some(at),
-            Found::Nowhere => None,
-            Found::Unknown => keys.search(key, &parts.element, types).ok(),
-        }
-    }
-}
+/// Values of the language by their keys.
+pub type Map = map::Map<Object>;
 
 impl Object {
     /// The empty text, list, set or map; no area, no obstacles.
@@ -187,9 +115,9 @@ impl Object {
         }
     }
 
-    /// The map, mutable; created if the object is empty; none if the object is not a map.
-    pub fn map_mut(&mut self) -> Option<&mut Map> {
-        let new = || Arc::new(Body::Map(Map::default()));
+    /// The map, mutable; created for these layouts if the object is empty; none if the object is not a map.
+    pub fn map_mut(&mut self, parts: &Parts) -> Option<&mut Map> {
+        let new = || Arc::new(Body::Map(Map::empty(parts)));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {
             Body::Map(map) => Some(map),
             _ => None,
@@ -220,7 +148,7 @@ impl Object {
             None | Some(Body::Area(_)) => 0,
             Some(Body::Text(text)) => text.chars().count(),
             Some(Body::List(list)) => list.len(),
-            Some(Body::Map(map)) => map.keys.size(),
+            Some(Body::Map(map)) => map.len(),
             Some(Body::Obstacles(obstacles)) => obstacles.len(),
         }
     }
@@ -243,10 +171,7 @@ impl Object {
             (Some(Body::List(left)), Some(Body::List(right))) => {
                 left.compare(right, &parts.element, types)
             }
-            (Some(Body::Map(left)), Some(Body::Map(right))) => {
-                let keys = lists(&left.keys, &right.keys, &parts.element, types);
-                keys.then_with(|| lists(&left.values, &right.values, &parts.value, types))
-            }
+            (Some(Body::Map(left)), Some(Body::Map(right))) => left.compare(right, parts, types),
             (Some(Body::Area(left)), Some(Body::Area(right))) => order_of(left == right),
             (Some(Body::Obstacles(left)), Some(Body::Obstacles(right))) => order_of(left == right),
             (Some(Body::Text(left)), Some(Body::Text(right))) => left.cmp(right),
@@ -273,18 +198,11 @@ impl Object {
                 digest.word(1);
                 digest.bytes(text.as_bytes());
             }
-            Some(Body::List(list)) => {
-                digest.word(2);
-                digest.word(list.len() as u64);
-                for block in list.iter() {
-                    block.scalars.iter().for_each(|&word| digest.word(word));
-                    block.objects.iter().for_each(|o| o.digest(digest));
-                }
-            }
+            Some(Body::List(list)) => digest_blocks(digest, list.len(), list.iter()),
             Some(Body::Map(map)) => {
                 digest.word(3);
-                map.keys.digest(digest);
-                map.values.digest(digest);
+                digest_blocks(digest, map.len(), map.iter().map(|[key, _]| key));
+                digest_blocks(digest, map.len(), map.iter().map(|[_, value]| value));
             }
             Some(Body::Area(area)) => {
                 digest.word(4);
@@ -310,8 +228,10 @@ impl Item for Object {
     }
 
     #[inline]
-    fn is_shared(&self, other: &Object) -> bool {
-        matches!((&self.0, &other.0), (Some(left), Some(right)) if Arc::ptr_eq(left, right))
+    fn address(&self) -> Option<NonZeroUsize> {
+        self.0
+            .as_ref()
+            .and_then(|body| NonZeroUsize::new(Arc::as_ptr(body).addr()))
     }
 
     #[inline]
@@ -326,7 +246,7 @@ impl Body {
         match self {
             Body::Text(text) => 4 * WORD + text.len(),
             Body::List(list) => list.bytes(),
-            Body::Map(map) => 4 * WORD + map.keys.bytes() + map.values.bytes(),
+            Body::Map(map) => map.bytes(),
             Body::Area(Area::Polygon(polygon)) => 4 * WORD + 3 * WORD * polygon.vertices().len(),
             Body::Area(_) => 8 * WORD,
             Body::Obstacles(obstacles) => {
@@ -340,11 +260,13 @@ impl Body {
     }
 }
 
-/// The order of two objects that hold lists.
-fn lists(left: &Object, right: &Object, layout: &Layout, types: &[Parts]) -> Ordering {
-    match (left.list(), right.list()) {
-        (Some(left), Some(right)) => left.compare(right, layout, types),
-        _ => left.size().cmp(&right.size()),
+/// Folds a row of values into a digest.
+fn digest_blocks<'a>(digest: &mut Digest, length: usize, blocks: impl Iterator<Item = Block<'a>>) {
+    digest.word(2);
+    digest.word(length as u64);
+    for block in blocks {
+        block.scalars.iter().for_each(|&word| digest.word(word));
+        block.objects.iter().for_each(|o| o.digest(digest));
     }
 }
 
@@ -364,9 +286,7 @@ impl PartialEq for Object {
             (Some(left), Some(right)) => match (&**left, &**right) {
                 (Body::Text(left), Body::Text(right)) => left == right,
                 (Body::List(left), Body::List(right)) => left.same(right),
-                (Body::Map(left), Body::Map(right)) => {
-                    left.keys == right.keys && left.values == right.values
-                }
+                (Body::Map(left), Body::Map(right)) => left.same(right),
                 (Body::Area(left), Body::Area(right)) => left == right,
                 (Body::Obstacles(left), Body::Obstacles(right)) => left == right,
                 _ => !self.filled() && !other.filled(),

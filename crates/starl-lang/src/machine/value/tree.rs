@@ -174,7 +174,7 @@ impl Value {
                     return None; // a key is there twice
                 }
                 let values = values.arranged(order.into_iter());
-                Body::Map(Map::new(sorted, values)).into()
+                Body::Map(Map::new(&sorted, &values)).into()
             }
             _ => return None,
         })
@@ -259,11 +259,10 @@ impl Reader<'_> {
             ObjectType::List(element) => Value::List(self.elements(object, element)?),
             ObjectType::Set(element) => Value::Set(self.elements(object, element)?),
             ObjectType::Map(key, value) => {
-                let empty = Map::default();
-                let map = object.map().unwrap_or(&empty);
-                let keys = self.elements(map.keys(), key)?;
-                let values = self.elements(map.values(), value)?;
-                Value::Map(keys.into_iter().zip(values).collect())
+                let entries = object.map().into_iter().flat_map(Map::iter);
+                let read =
+                    |[k, v]: [Block<'_>; 2]| Some((self.block(k, key)?, self.block(v, value)?));
+                Value::Map(entries.map(read).collect::<Option<_>>()?)
             }
         })
     }
@@ -272,9 +271,11 @@ impl Reader<'_> {
         let Some(list) = object.list() else {
             return Some(Vec::new());
         };
-        list.iter()
-            .map(|block| Value::read(self.program, kind, block.scalars, block.objects))
-            .collect()
+        list.iter().map(|block| self.block(block, kind)).collect()
+    }
+
+    fn block(&self, block: Block<'_>, kind: &Type) -> Option<Value> {
+        Value::read(self.program, kind, block.scalars, block.objects)
     }
 
     fn scalar(&mut self) -> Option<u64> {

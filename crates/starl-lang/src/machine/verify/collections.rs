@@ -4,7 +4,7 @@ use super::flow::{Broken, Context};
 use super::rules::{WRONG_TYPE, same};
 use crate::machine::instruction::Instruction;
 use crate::machine::operand::{ObjectIn, ObjectInOut};
-use crate::machine::types::{Layout, ObjectType, Parts, Type};
+use crate::machine::types::{Layout, ObjectType, Order, Parts, Type};
 
 impl Context<'_> {
     pub fn particular_to_collections(&mut self, instruction: &Instruction) -> Result<(), Broken> {
@@ -142,6 +142,27 @@ impl Context<'_> {
                 let parts = self.map_parts(map.0, kind.0)?;
                 let entry = entry(parts);
                 self.reads_block(scalars.0, objects.0, &entry)
+            }
+            MapAdd {
+                map,
+                scalars,
+                objects,
+                kind,
+                ..
+            }
+            | MapAddConstant {
+                map,
+                scalars,
+                objects,
+                kind,
+                ..
+            } => {
+                let parts = self.map_parts(map.0, kind.0)?;
+                if (&parts.value.scalars[..], &parts.value.objects[..]) != (&[Order::Integer], &[])
+                {
+                    return Err("the values of the map are not whole numbers".into());
+                }
+                self.reads_block(scalars.0, objects.0, &parts.element)
             }
             MapGet {
                 map,

@@ -1,7 +1,7 @@
 //! Mutex in programs.
 
 use super::kind::{Kind, Member, flag, method, query};
-use crate::machine::{Body, List, Object};
+use crate::machine::{Body, List};
 use crate::robot::arguments::Arguments;
 use crate::robot::context::Context;
 use crate::robot::instance::Instance;
@@ -11,7 +11,6 @@ use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::vec::Vec;
 use starl_core::{Area, Primitive, Random, Robot};
 use starl_primitives::Mutex;
 use starl_primitives::mutex::{AcquireError, Options, PlaceOptions, Resources};
@@ -167,14 +166,8 @@ fn areas(arguments: &mut Arguments<'_>) -> Result<BTreeMap<Box<str>, Area>, Cow<
     let Some(Body::Map(map)) = arguments.object().body() else {
         return Ok(BTreeMap::new());
     };
-    let elements = |object: &Object| -> Vec<Object> {
-        let blocks = object.list().into_iter().flat_map(List::iter);
-        blocks
-            .filter_map(|block| block.objects.first().cloned())
-            .collect()
-    };
-    let pairs = elements(map.keys()).into_iter().zip(elements(map.values()));
-    pairs
+    map.iter()
+        .filter_map(|[name, area]| Some((name.objects.first()?, area.objects.first()?)))
         .map(|(name, area)| match area.area() {
             Some(area) => Ok((name.text().into(), area.clone())),
             None => Err("there is no area".into()),

@@ -11,7 +11,6 @@ use crate::robot::context::Context;
 use crate::robot::instance::Instance;
 use crate::robot::services::Needs;
 use crate::robot::shape::Shape;
-use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -145,7 +144,10 @@ pub(in crate::robot) fn give_all(
     let cost = 10 * owners.len() as u64;
     let map = match owners.is_empty() {
         true => Object::EMPTY,
-        false => Body::Map(Map::new(robots(owners), values)).into(),
+        false => {
+            let owners = owners.iter().map(|owner| u64::from(owner.0));
+            Body::Map(Map::new(&List::of_scalars(owners.collect()), &values)).into()
+        }
     };
     call.set_object(0, map);
     Ok(cost)

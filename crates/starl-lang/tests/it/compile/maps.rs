@@ -72,6 +72,55 @@ log(\"{} {}\", c, m)";
 }
 
 #[test]
+fn counting() {
+    let body = "
+m[k] = (m.get(k) ?? 0) + m[\"b\"]
+m[\"z\"] += 5
+let amount = m[k]
+m[k] += amount
+m[\"y\"] = (m.get(\"z\") ?? 0) + 1
+m[\"x\"] = (m.get(\"w\") ?? 0) + 1
+m[\"v\"] = (m.get(\"w\") ?? 1) + 1
+m[k] += -100000
+log(\"{}\", m)
+let c = {7: {1: 1}}
+c[7][1] += amount
+c[7][2] += 70000
+c[7][3] = (c[7].get(3) ?? 0) + 2
+log(\"{}\", c)
+let o: Map[Int, Int?] = {1: 4, 2: none}
+o[3] = (o.get(1) ?? 0) + 1
+o[4] = (o.get(2) ?? 0) + 1
+log(\"{}\", o)
+let f: Map[Int, Float] = {:}
+f[1] = (f.get(1) ?? 0.0) + 0.5
+f[1] = (f.get(1) ?? 0.0) + 0.5
+log(\"{}\", f)
+let keys = [\"key \" + String(i) for i in 0..20]
+let counts = [{key: 0 for key in keys}, {key: 0 for key in keys}]
+for i in 0..9
+    for key in keys
+        counts[0][key] += i
+        counts[1][key] = (counts[1].get(key) ?? 0) + i
+        counts[0][\"key \" + String(i)] += 1
+        counts[1][\"key \" + String(i)] += 1
+log(\"{} {}\", counts[0] == counts[1], counts[0].values())";
+    let told = effect(DECLARATIONS, body.trim()).unwrap();
+    let expected = [
+        "{\"a\": -99994, \"b\": 2, \"v\": 2, \"x\": 1, \"y\": 6, \"z\": 5}",
+        "{7: {1: 4, 2: 70000, 3: 2}}",
+        "{1: 4, 2: none, 3: 5, 4: 1}",
+        "{1: 1.0}",
+        "true [56, 56, 36, 36, 36, 36, 36, 36, 36, 36, 36, 36, 56, 56, 56, 56, 56, 56, 56, 36]",
+    ];
+    assert_eq!(told, expected.map(|text| format!("log({text:?})")));
+    faults(
+        DECLARATIONS,
+        &[("m[k] = 9223372036854775807; m[k] += 1", 1, Fault::Overflow)],
+    );
+}
+
+#[test]
 fn a_key_that_is_not_there() {
     faults(
         DECLARATIONS,

@@ -15,6 +15,7 @@ type Map[type0, type1]
 type Area
 type List[{name: type0, at: Time, where: Point?}]
 type Map[Robot, type1?]
+type Map[Int, Int]
 constant 1.5
 constant -7
 text "a, b"
@@ -211,6 +212,11 @@ function start procedure () () registers 40 objects 20
     map_keys b10 b5 type5
     map_values b11 b5 type3
     map_remove b5 r0 b0 type7
+    clear_object b5 type12
+    map_add b5 r0 b0 r9 type12
+    map_add_constant b5 r0 b0 -3 type12
+    map_at b5 r0 b0 r9 b0 type12
+    add_int r10 r10 r9
     clear_object b12 type8
     load_text b13 t0
     copy_object b14 b7
