@@ -54,6 +54,22 @@ local function map_int(turns)
     return counts[999]
 end
 
+local function map_apart(turns)
+    local counts = {}
+    for i = 0, 999 do
+        counts[i * 7919 % 1000] = i
+    end
+    local s = 0
+    for turn = 1, turns do
+        for i = 0, 999 do
+            local key = i * 7919 % 1000
+            s = s + counts[key]
+            counts[key] = i
+        end
+    end
+    return s
+end
+
 local function map_string(turns)
     local keys = {}
     for i = 0, 999 do
@@ -163,6 +179,7 @@ measure("fib 22", fib, 22, 17711)
 measure("fib 30", fib, 30, 832040)
 measure("list of 1,000, 1,000 times", list, 1000, 499500000)
 measure("map by Int of 1,000, 100 times", map_int, 100, 100)
+measure("map read and written, 100 times", map_apart, 100, 49950000)
 measure("map by String of 1,000, 100 times", map_string, 100, 100)
 measure("strings joined and split, 1,000 times", strings, 1000, 1000)
 measure("records of 100, 1,000 times", records, 1000, 100000)

@@ -46,6 +46,16 @@ function map_int(turns: Int) -> Int
             counts[key] = (counts.get(key) ?? 0) + 1
     return counts.get(999) ?? 0
 
+function map_apart(turns: Int) -> Int
+    let counts: Map[Int, Int] = {i * 7919 % 1000: i for i in 0..1000}
+    let s = 0
+    for turn in 0..turns
+        for i in 0..1000
+            let key = i * 7919 % 1000
+            s += counts[key]
+            counts[key] = i
+    return s
+
 function map_string(turns: Int) -> Int
     let keys = [\"key \" + String(i * 7919 % 1000) for i in 0..1000]
     let counts: Map[String, Int] = {:}
@@ -156,6 +166,12 @@ fn main() {
     );
     let others = [
         ("map by Int of 1,000, 100 times", "map_int", 100, 100),
+        (
+            "map read and written, 100 times",
+            "map_apart",
+            100,
+            49_950_000,
+        ),
         ("map by String of 1,000, 100 times", "map_string", 100, 100),
         (
             "strings joined and split, 1,000 times",

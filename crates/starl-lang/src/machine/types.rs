@@ -116,11 +116,11 @@ pub struct Parts {
     pub element: Layout,
     /// A value.
     pub value: Layout,
-    /// What the keys of a map are.
+    /// The kind of a map's keys.
     pub keys: Keys,
 }
 
-/// What the keys of a map are, for looking them up.
+/// Kinds of keys, which are looked up in different ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keys {
     /// One whole number each.

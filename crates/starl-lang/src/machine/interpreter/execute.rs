@@ -539,7 +539,11 @@ impl Execution<'_> {
                             _ => object_instruction!(instruction),
                         }
                     }
-                    MapGet { .. } | MapPut { .. } | MapAdd { .. } | MapAddConstant { .. } => {
+                    MapGet { .. }
+                    | MapAt { .. }
+                    | MapPut { .. }
+                    | MapAdd { .. }
+                    | MapAddConstant { .. } => {
                         match self.map_instruction(instruction, base, object_base) {
                             Some(()) => spend!(3),
                             None => object_instruction!(instruction),
@@ -585,13 +589,21 @@ impl Execution<'_> {
         base: usize,
         object_base: usize,
     ) -> Option<()> {
-        use Instruction::{MapAdd, MapAddConstant, MapGet, MapPut};
+        use Instruction::{MapAdd, MapAddConstant, MapAt, MapGet, MapPut};
         let program = self.program;
         let (objects, state) = (&mut self.workspace.objects, &mut self.state.objects);
         let r = self.workspace.scalars.get_mut(base..)?;
         let r: &mut Registers = r.first_chunk_mut()?;
         match instruction {
             MapGet {
+                map,
+                scalars,
+                objects: key,
+                to,
+                kind,
+                ..
+            }
+            | MapAt {
                 map,
                 scalars,
                 objects: key,
@@ -606,10 +618,13 @@ impl Execution<'_> {
                 if value.len() >= 8 {
                     return None;
                 }
-                let to = to.place();
-                r[to] = 1;
+                let mut to = to.place();
+                if let MapGet { .. } = instruction {
+                    r[to] = 1;
+                    to += 1;
+                }
                 for (offset, &word) in value.iter().enumerate() {
-                    r[(to + 1 + offset) % WINDOW] = word;
+                    r[(to + offset) % WINDOW] = word;
                 }
             }
             MapPut {

@@ -7,7 +7,7 @@
 //! of them, so that no keys make it slower than that.
 //!
 //! Programs mostly look a text up by the same object that is the key. Such a text is found by its address in memory, without
-//! being read. What is found does not depend on addresses, since an index that an address leads to is checked.
+//! being read. Results do not depend on addresses, since an index that an address leads to is checked.
 
 use crate::machine::value::list::{Block, Item, List};
 use alloc::boxed::Box;
@@ -181,8 +181,7 @@ impl Index {
         self.asked.store(asked, Ordering::Relaxed);
         let length = entries.len();
         if usize::from(asked) >= length.min(usize::from(u16::MAX))
-            && length >= FEWEST
-            && length < 1 << 30
+            && (FEWEST..1 << 30).contains(&length)
         {
             self.table
                 .get_or_init(|| Box::new(Table::of(entries, self.key)));

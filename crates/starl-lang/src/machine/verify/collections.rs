@@ -160,7 +160,7 @@ impl Context<'_> {
                 let parts = self.map_parts(map.0, kind.0)?;
                 if (&parts.value.scalars[..], &parts.value.objects[..]) != (&[Order::Integer], &[])
                 {
-                    return Err("the values of the map are not whole numbers".into());
+                    return Err("the values of the map are not whole numbers");
                 }
                 self.reads_block(scalars.0, objects.0, &parts.element)
             }
