@@ -6,6 +6,7 @@ use crate::harness::{Wire, World, int, robot};
 use starl_core::{Duration, Random, Time};
 use starl_primitives::broadcast::Order;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 const ORDERS: [Order; 3] = [Order::Unordered, Order::Fifo, Order::Causal];
 
@@ -49,8 +50,19 @@ fn judge(world: &World, order: Order, starts: &[(Time, u32)], seed: u64) -> usiz
 
 #[test]
 fn copies_ten_seconds_late_and_many_restarts_break_no_order() {
+    late_copies_and_restarts(0..3);
+}
+
+#[test]
+#[ignore = "more seeds, which take a quarter of a minute"]
+fn copies_ten_seconds_late_and_many_restarts_break_no_order_with_more_seeds() {
+    late_copies_and_restarts(3..12);
+}
+
+/// Fleets of three sizes, with restarts of one robot and of each in turn.
+fn late_copies_and_restarts(seeds: Range<u64>) {
     for order in ORDERS {
-        for seed in 0..12 {
+        for seed in seeds.clone() {
             let robots = [3, 4, 6][seed as usize % 3];
             let mut world = fleet(order, robots, seed, late(), 400, 100);
             let mut random = Random::keyed(seed, &[9]);
@@ -191,8 +203,18 @@ fn messages_to_a_robot_that_is_never_heard_again_arrive_before_they_are_given_up
 
 #[test]
 fn one_fifth_lost_loses_no_message() {
+    one_fifth_lost(0..3);
+}
+
+#[test]
+#[ignore = "more seeds"]
+fn one_fifth_lost_loses_no_message_with_more_seeds() {
+    one_fifth_lost(3..10);
+}
+
+fn one_fifth_lost(seeds: Range<u64>) {
     for order in ORDERS {
-        for seed in 0..10 {
+        for seed in seeds.clone() {
             let wire = Wire {
                 loss: 0.2,
                 delay_ms: (5, 40),
