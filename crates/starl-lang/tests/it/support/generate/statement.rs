@@ -119,7 +119,10 @@ impl Generator<'_> {
         let made = match self.choices.below(8) {
             0..=2 => self.assignment(),
             3 | 4 => self.update(),
-            5 => self.change(),
+            5 => match self.choices.below(4) {
+                0 => self.count(),
+                _ => self.change(),
+            },
             _ if is_effect => Some(self.effect()),
             _ => self.assignment(),
         };
@@ -234,6 +237,28 @@ impl Generator<'_> {
         };
         let value = self.expression(&value, known, 2).text;
         Some(format!("{place} {sign} {value}"))
+    }
+
+    /// `m[k] = (m.get(k) ?? 0) + value`.
+    fn count(&mut self) -> Option<String> {
+        let counts = |ty: &Type| matches!(ty, Type::Map(_, value) if matches!(**value, Type::Int | Type::Float));
+        let (place, ty) = self.place(counts, true)?;
+        let Type::Map(key, value) = ty else {
+            return None;
+        };
+        if !self.can_make(&key) {
+            return None;
+        }
+        let key = self.expression(&key, Context::Fit, 0).text;
+        let default = match *value {
+            Type::Int => ["0", "0", "1"],
+            _ => ["0.0", "-0.0", "1.0"],
+        };
+        let default = default[self.choices.below(3)];
+        let value = self.expression(&value, Context::Known, 1).text;
+        Some(format!(
+            "{place}[{key}] = ({place}.get({key}) ?? {default}) + ({value})"
+        ))
     }
 
     /// `place.add(value)` and the like.
