@@ -645,27 +645,26 @@ impl Execution<'_> {
                 map,
                 scalars,
                 objects: key,
-                amount,
                 kind,
-            } => {
-                let key = (scalars.place(), object_base + key.place());
-                let parts = program.parts_of(kind)?;
-                let value = changed(map, key, parts, r, objects, object_base, state)?;
-                let [value] = value else { return None };
-                *value = (*value as i64).checked_add(r[amount.place()] as i64)? as u64;
+                ..
             }
-            MapAddConstant {
+            | MapAddConstant {
                 map,
                 scalars,
                 objects: key,
-                amount,
                 kind,
+                ..
             } => {
+                let amount = match instruction {
+                    MapAdd { amount, .. } => r[amount.place()] as i64,
+                    MapAddConstant { amount, .. } => amount.0.into(),
+                    _ => return None,
+                };
                 let key = (scalars.place(), object_base + key.place());
                 let parts = program.parts_of(kind)?;
                 let value = changed(map, key, parts, r, objects, object_base, state)?;
                 let [value] = value else { return None };
-                *value = (*value as i64).checked_add(amount.0.into())? as u64;
+                *value = (*value as i64).checked_add(amount)? as u64;
             }
             _ => return None,
         }
