@@ -189,7 +189,8 @@ faults: $(STARL)
 	tools/workloads.sh $(STARL) tools/storage.txt --seeds 10 --out target/faults
 	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
 		--out target/faults
-	$(STARL) test search-building intersection-stream --seeds 1 --profile chaos --out target/faults
+	$(STARL) test search-building --seeds 1 --profile chaos --out target/faults
+	$(STARL) test intersection-stream --robots car=40 --seeds 3 --profile chaos --out target/faults
 	$(STARL) test crossing diffusion --seeds 5 --profile calm,clocks --out target/faults
 
 # The long tests: those that `cargo test` ignores, and the two parts above with more seeds.
