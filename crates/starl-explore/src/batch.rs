@@ -54,6 +54,14 @@ impl Batch {
         self.parts.clear();
     }
 
+    /// Takes away the steps from one on.
+    pub fn truncate(&mut self, len: usize) {
+        self.before.truncate(len);
+        self.codes.truncate(len);
+        self.rows.truncate(2 * len * self.width);
+        self.parts.truncate(len);
+    }
+
     /// How many steps it has.
     pub fn len(&self) -> usize {
         self.codes.len()

@@ -59,6 +59,12 @@ pub enum Clocks {
 impl Bounds {
     /// The value for timers without a bound: they fire any number of times.
     pub const ANY_NUMBER: u8 = u8::MAX;
+
+    /// Whether a search visits states in the order of their distance from the start. With any copies it does so only
+    /// where the distance is bounded.
+    pub fn is_shortest_first(&self) -> bool {
+        !self.any_copies || self.depth.is_some()
+    }
 }
 
 impl Default for Bounds {

@@ -26,6 +26,8 @@ pub(crate) struct Expander {
     pub watches: Watches,
     /// The states of the checkers, and the remaining bounds.
     pub heads: Rows,
+    /// Whether a step that only adds datagrams is the only one of its state: see [`crate::grow`].
+    pub grows_first: bool,
     /// The row at hand.
     row: Vec<u32>,
     /// The group of the row at hand.
@@ -35,11 +37,15 @@ pub(crate) struct Expander {
 /// A state that is expanded.
 struct Origin<'a> {
     state: u32,
+    /// The place of its first step in the batch.
+    first: usize,
     row: &'a [u32],
     /// The state of the checkers.
     watch: u32,
     left: Left,
     is_held: bool,
+    /// A step of it only adds datagrams.
+    grows: bool,
     violation: Option<(Code, Violation)>,
     batch: &'a mut Batch,
 }
@@ -52,6 +58,7 @@ impl Expander {
             actors: Actors::new(bounds),
             watches: Watches::new(checkers),
             heads: Rows::new(1 + Left::WORDS, 0),
+            grows_first: false,
             row: Vec::new(),
             group: Vec::new(),
         }
@@ -80,10 +87,12 @@ impl Expander {
         let (watch, left) = self.head(row[0]);
         let mut origin = Origin {
             state,
+            first: batch.len(),
             row,
             watch,
             left,
             is_held: false,
+            grows: false,
             violation: None,
             batch,
         };
@@ -114,7 +123,7 @@ impl Expander {
             let prospects = self.actors.prospects(origin.row[place], &mut self.robots);
             ticked.push(prospects.ticked);
             self.moves(origin, place, prospects);
-            if origin.violation.is_some() {
+            if origin.violation.is_some() || origin.grows {
                 return;
             }
         }
@@ -135,8 +144,13 @@ impl Expander {
                 let to = HEAD + self.robots.datagram(datagram).to.index();
                 self.row[to] = self.actors.post(self.row[to], datagram);
             }
+            let is_still = step.next == origin.row[place] && left == origin.left;
+            if self.grows_first && is_still && step.batch == NOTHING && self.row != origin.row {
+                origin.grows = true;
+                origin.batch.truncate(origin.first);
+            }
             self.take(origin, step.code, left, step.batch);
-            if origin.violation.is_some() {
+            if origin.violation.is_some() || origin.grows {
                 return;
             }
         }

@@ -16,6 +16,7 @@ mod cover;
 mod doubt;
 mod expand;
 mod facts;
+mod grow;
 mod known;
 mod level;
 mod model;

@@ -2,7 +2,7 @@
 //!
 //! A state is a row of words: the number of the checkers' state and the remaining bounds, and the number of each
 //! robot's state with its datagrams in transit. The row contains everything that the next steps depend on. States are
-//! compared whole, and those that a known one covers are left out ([`crate::cover`]).
+//! compared whole, and those that a known one covers are left out ([`crate::cover`], [`crate::grow`]).
 //!
 //! The search continues in batches of steps. While the states that a batch leads to are entered ([`crate::known`]), the
 //! next states are expanded ([`crate::expand`]). Then the new states are judged, in the order of the steps. So threads
@@ -15,6 +15,7 @@ use crate::bounds::Bounds;
 use crate::code::{Code, Flying, Kind, MOST_ROBOTS};
 use crate::doubt::Doubt;
 use crate::expand::Expander;
+use crate::grow::drop_needless;
 use crate::known::{Arrival, Known};
 use crate::level::Level;
 use crate::robots::Robots;
@@ -71,7 +72,7 @@ pub enum End {
 /// The way to a violation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counterexample {
-    /// The steps, the fewest possible.
+    /// The steps: the fewest possible, or with any copies a few of which each is necessary.
     pub steps: Vec<Step>,
     /// The violation after them.
     pub violation: Violation,
@@ -188,6 +189,7 @@ impl Search {
 
     /// Begins with the state that has this row.
     fn begin(&mut self, row: &[u32], covering: bool) {
+        self.expander.grows_first = covering && !self.bounds.is_shortest_first();
         self.known = Known::new(row.len(), covering);
         self.known
             .catch_up(&self.expander.actors, &self.expander.heads);
@@ -386,17 +388,26 @@ impl Search {
 
     /// Ends the search: something is violated after a step from a state, or in the state itself.
     fn blame(&mut self, state: u32, code: Option<Code>, violation: Violation) {
-        let mut codes: Vec<(u32, Code)> = code.map(|code| (state, code)).into_iter().collect();
-        let mut at = state;
-        while let before = self.known.before(at)
+        let mut way = vec![state];
+        while let before = self.known.before(way[way.len() - 1])
             && before != START
         {
-            let (from, to) = (self.known.row(before), self.known.row(at));
-            codes.extend(self.expander.code(from, to).map(|code| (before, code)));
-            at = before;
+            way.push(before);
+        }
+        way.reverse();
+        let mut codes = Vec::new();
+        for (&from, to) in way.iter().zip(&way[1..]) {
+            let row = self.known.row(from);
+            let found = self.expander.code(row, self.known.row(*to));
+            codes.extend(found.map(|code| (from, code)));
+        }
+        codes.extend(code.map(|code| (state, code)));
+        if self.expander.grows_first {
+            let rows: Vec<&[u32]> = way.iter().map(|&state| self.known.row(state)).collect();
+            drop_needless(&mut codes, &rows, &self.expander.actors);
         }
         let Expander { actors, robots, .. } = &self.expander;
-        let steps = codes.into_iter().rev().map(|(before, code)| {
+        let steps = codes.into_iter().map(|(before, code)| {
             let robot = code.of_robot().unwrap_or(RobotId(0));
             let actor = self.known.row(before).get(HEAD + robot.index());
             let local = actor.map_or(0, |&actor| actors.local(actor));

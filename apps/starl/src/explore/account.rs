@@ -32,6 +32,8 @@ pub struct Account {
     /// Suggestions for other explorations.
     pub hints: Vec<String>,
     violation: Option<Violation>,
+    #[serde(skip)]
+    is_shortest_first: bool,
     /// The way to the violation, line by line.
     pub steps: Vec<String>,
     /// Where it is kept.
@@ -100,6 +102,7 @@ impl Account {
             within: None,
             hints: Vec::new(),
             violation,
+            is_shortest_first: recording.bounds.is_shortest_first(),
             steps: Vec::new(),
             saved: None,
         }
@@ -182,12 +185,18 @@ impl Account {
         text
     }
 
-    /// The covered steps of an incomplete search. It is breadth first.
+    /// How far an incomplete search has come.
     fn covered(&self) -> String {
+        let within = match self.is_shortest_first {
+            true => format!(
+                "within {} from the start",
+                counted(self.depth.saturating_sub(1) as usize, "step")
+            ),
+            false => "in the states so far".into(),
+        };
         format!(
-            "nothing is violated within {} from the start. Allow more, or bound more: fewer robots (--robots 2), \
+            "nothing is violated {within}. Allow more, or bound more: fewer robots (--robots 2), \
              no timers (--timers 0), fewer faults, fewer turns (--set parameters.NAME=1)",
-            counted(self.depth.saturating_sub(1) as usize, "step")
         )
     }
 
@@ -195,9 +204,13 @@ impl Account {
         match (self.outcome, &self.violation) {
             ("complete", _) => "complete: no behaviour within the bounds violates anything".into(),
             (_, Some(violation)) => format!(
-                "violated: {} after {}; there is no shorter path",
+                "violated: {} after {}; {}",
                 violation.property,
-                counted(violation.steps, "step")
+                counted(violation.steps, "step"),
+                match self.is_shortest_first {
+                    true => "there is no shorter path",
+                    false => "none of them can be omitted",
+                }
             ),
             ("depth_bound", _) => format!(
                 "NOT complete: nothing is violated up to --depth {}, and there are states beyond",

@@ -45,9 +45,9 @@ fn one_message_with_a_crash_and_a_duplicate() {
 }
 
 /// Ticks after which the robots have founded a group and have a leader.
-const FOUNDED: u16 = 2;
+pub const FOUNDED: u16 = 2;
 
-fn total(messages: &[u8], bounds: Bounds) -> Setup {
+pub fn total(messages: &[u8], bounds: Bounds) -> Setup {
     let options = Options {
         first_timeout: Duration::from_seconds(1),
         ..Options::default()

@@ -2,7 +2,7 @@
 //! what is hard for a protocol without storage. The checkers are those of every run. `any_copies` has the protocols that
 //! are explored with any number of copies.
 
-use crate::broadcasts_keep_their_order::broadcasts;
+use crate::broadcasts_keep_their_order::{FOUNDED, ONE, broadcasts, total};
 use crate::elections_are_safe::election;
 use crate::support::locker::Locker;
 use crate::support::{happens, setup, size, watched};
@@ -104,4 +104,11 @@ fn two_messages_of_one_robot() {
 fn messages_of_two_robots_in_causal_order() {
     let broadcasts = broadcasts(Order::Causal, &[1, 1, 0]);
     assert_eq!(explore(broadcasts, 0), (81_542_639, 291_065_904, 25));
+}
+
+#[test]
+#[ignore = "takes minutes, and 7 GB of memory"]
+fn one_message_in_total_order() {
+    let size = (57_555_840, 181_768_765, 33);
+    assert_eq!(explore(total(ONE, Bounds::default()), FOUNDED), size);
 }

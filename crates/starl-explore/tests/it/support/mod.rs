@@ -74,14 +74,29 @@ pub fn all_is_well(setup: Setup, warm_up: u16) -> (u32, u64, u32) {
 
 /// Whether a primitive reports this event in some behaviour after a warm-up: a search in which nothing is ever
 /// granted would show nothing.
-pub fn happens(mut setup: Setup, warm_up: u16, event: &'static str) -> bool {
-    setup.checkers = vec![Box::new(Sees(event))];
-    matches!(search_warm(setup, warm_up).run(), End::Violated(_))
+pub fn happens(setup: Setup, warm_up: u16, event: &'static str) -> bool {
+    matches!(
+        search_warm(seeing(setup, event, 1), warm_up).run(),
+        End::Violated(_)
+    )
+}
+
+/// The same with an event of a primitive that happens so many times as the only violation.
+pub fn seeing(setup: Setup, event: &'static str, times: u32) -> Setup {
+    let before = times - 1;
+    Setup {
+        checkers: vec![Box::new(Sees { event, before })],
+        ..setup
+    }
 }
 
 /// Takes an event of a primitive for a violation.
 #[derive(Clone, Debug)]
-struct Sees(&'static str);
+struct Sees {
+    event: &'static str,
+    /// How often it happens before.
+    before: u32,
+}
 
 impl Checker for Sees {
     fn properties(&self) -> &'static [&'static str] {
@@ -90,8 +105,12 @@ impl Checker for Sees {
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         if let (Some(robot), Event::Primitive { event, .. }) = (record.robot, &record.event)
-            && event.name() == self.0
+            && event.name() == self.event
         {
+            if self.before > 0 {
+                self.before -= 1;
+                return;
+            }
             let name = event.name();
             violations.push(Violation {
                 property: "seen".into(),
