@@ -59,6 +59,7 @@ impl Application {
                     true => Default::default(),
                     false => self.programs.detectors(),
                 },
+                keeps_storage: scenario.storage.kept,
                 // Without time, a robot that waits for time does not finish.
                 all_finish: scenario.goal == Goal::AllFinished
                     && (bounds.clocks != Clocks::Still || !self.programs.wait_for_time()),

@@ -18,6 +18,8 @@ pub struct Model {
     /// Endpoints whose timers never fire, such as those of failure detectors: their verdicts are explored instead of
     /// their heartbeats.
     pub silent: BTreeSet<Port>,
+    /// Whether robots have storage that survives a crash.
+    pub keeps_storage: bool,
     /// Whether all robots must finish: a state without a next step is then a violation, unless all have finished.
     pub all_finish: bool,
 }
@@ -51,6 +53,7 @@ impl Model {
             obstacles: [].into(),
             seed: 1,
             silent: BTreeSet::new(),
+            keeps_storage: false,
             all_finish: false,
         }
     }

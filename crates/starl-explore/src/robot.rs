@@ -11,12 +11,15 @@ use starl_core::event::Fault;
 use starl_core::random::hash_key;
 use starl_core::{
     Agent, Destination, Duration, Estimate, Event, Input, Message, MotionRequest, Port, Random,
-    RobotId, Sensors, Time, TimerKey,
+    RobotId, Saved, Sensors, Time, TimerKey,
 };
-use starl_host::{Clock, Hardware, Node, NodeInput as Call, Outlet, PlanJob, Snapshot, Workspace};
+use starl_host::{
+    Clock, Hardware, Node, NodeInput as Call, Outlet, PlanJob, Snapshot, StoreJob, Workspace,
+};
 use starl_motion::Neighbour;
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// A robot's state.
 #[derive(Clone)]
@@ -26,6 +29,9 @@ pub(crate) struct Local {
     pub clock: u64,
     /// Counts its starts.
     life: u64,
+    /// The content of its storage, if it has one. A write takes no time: a crash before its end undoes the input that caused
+    /// it, so it is a crash before this input.
+    saved: Option<Arc<Saved>>,
     /// The hash of its history in this life, if its program does not write its state.
     history: u128,
 }
@@ -117,6 +123,7 @@ impl Local {
             node: Node::new(robot, Clock::default(), agent, Time::ZERO),
             clock: 0,
             life: 0,
+            saved: surroundings.model.keeps_storage.then(Arc::default),
             history: 0,
         };
         local.node.crash();
@@ -191,12 +198,16 @@ impl Local {
             node,
             clock,
             life,
+            saved,
             history,
         } = self;
         let (robot, timers) = (node.id(), self.timers(surroundings));
         let condition = node.condition();
         // Writing to a text cannot fail.
         let _ = write!(text, "{robot} {clock} {life} {condition:?} {timers:?} ");
+        if let Some(saved) = saved {
+            let _ = write!(text, "{saved:?} ");
+        }
         if self.is_up() && !node.agent().write_state(text) {
             let _ = write!(text, "{history:x}");
         }
@@ -210,6 +221,7 @@ impl Turn {
             self.events.push(Event::Fault(Fault::Restart));
         }
         let agent = surroundings.agent(local.robot(), local.life);
+        let agent = agent.with_saved(local.saved.clone());
         let now = surroundings.time(local.clock);
         local.node.restart(now, agent);
         local.life += 1;
@@ -233,6 +245,7 @@ impl Turn {
         let Local {
             node,
             clock,
+            saved,
             history,
             ..
         } = &mut self.local;
@@ -244,6 +257,8 @@ impl Turn {
             sent: &mut self.sent,
             events: &mut self.events,
             motions: &mut self.motions,
+            saved,
+            written: None,
             workspace: Workspace::default(),
         };
         if node.runs() {
@@ -263,6 +278,9 @@ impl Turn {
         };
         node.locate(now, estimate, &mut wire);
         node.handle(now, call, &snapshot, &mut wire);
+        while let Some(job) = wire.written.take() {
+            node.handle(now, Call::Stored { job }, &snapshot, &mut wire);
+        }
     }
 }
 
@@ -273,6 +291,9 @@ struct Wire<'a> {
     sent: &'a mut Vec<Datagram>,
     events: &'a mut Vec<Event>,
     motions: &'a mut u64,
+    saved: &'a mut Option<Arc<Saved>>,
+    /// The write that was just done.
+    written: Option<u32>,
     workspace: Workspace,
 }
 
@@ -305,6 +326,12 @@ impl Outlet for Wire<'_> {
             port: message.port,
             payload: message.payload.to_vec(),
         }));
+    }
+
+    fn store(&mut self, _: Time, job: StoreJob) {
+        let saved = Arc::make_mut(self.saved.get_or_insert_default());
+        job.saves.into_iter().for_each(|save| saved.apply(save));
+        self.written = Some(job.job);
     }
 
     fn plan(&mut self, _: Time, _: PlanJob) {

@@ -50,6 +50,7 @@ struct BoundsInWords {
     /// None where time bounds them.
     timers: Option<u8>,
     heartbeats: bool,
+    storage: bool,
     tick_seconds: Option<f64>,
     time_seconds: Option<f64>,
     skew_ticks: Option<u16>,
@@ -68,7 +69,13 @@ struct Violation {
 
 impl Account {
     /// Of a search that has ended, or was stopped.
-    pub fn new(target: &str, recording: &Recording, report: &Report, end: Option<&End>) -> Account {
+    pub fn new(
+        target: &str,
+        recording: &Recording,
+        storage: bool,
+        report: &Report,
+        end: Option<&End>,
+    ) -> Account {
         let violation = match end {
             Some(End::Violated(found)) => Some(Violation {
                 property: found.violation.property.to_string(),
@@ -88,7 +95,7 @@ impl Account {
                 None => "interrupted",
             },
             robots: recording.robots,
-            bounds: BoundsInWords::of(recording),
+            bounds: BoundsInWords::of(recording, storage),
             states: report.states,
             transitions: report.transitions,
             depth: report.depth,
@@ -232,7 +239,7 @@ impl Account {
 }
 
 impl BoundsInWords {
-    fn of(recording: &Recording) -> BoundsInWords {
+    fn of(recording: &Recording, storage: bool) -> BoundsInWords {
         let Recording {
             bounds,
             heartbeats,
@@ -261,6 +268,7 @@ impl BoundsInWords {
             suspicions: bounds.suspicions,
             timers: tick.is_none().then_some(bounds.timers),
             heartbeats,
+            storage,
             tick_seconds: tick.map(Duration::seconds),
             time_seconds: time.map(Duration::seconds),
             skew_ticks: skew,
@@ -308,6 +316,9 @@ impl BoundsInWords {
         }));
         if !self.heartbeats {
             parts.push("no heartbeats".into());
+        }
+        if self.storage {
+            parts.push("robots with storage".into());
         }
         parts.extend(self.depth.map(|depth| format!("{depth} steps")));
         format!("at most {}", parts.join(", "))

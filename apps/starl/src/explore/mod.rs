@@ -88,7 +88,13 @@ fn explore(
     })?;
     progress.clear();
     let end = search.end().cloned();
-    let mut account = Account::new(target, &recording, &search.report(), end.as_ref());
+    let mut account = Account::new(
+        target,
+        &recording,
+        setup.model.keeps_storage,
+        &search.report(),
+        end.as_ref(),
+    );
     if end.is_none() && !is_interrupted() {
         account.run_late(&arguments.within);
     }

@@ -192,6 +192,26 @@ fn requests_that_are_never_granted_are_noted() {
 }
 
 #[test]
+fn robots_find_again_what_they_stored() {
+    let folder = folder("explore_storage");
+    let program = "program Starts\n\nstable starts: Int = 0\nbegun: Bool = false\n\nbegin()\n    pre not begun\n    eff\n        \
+                   begun = true\n        starts += 1\n        finish()\n\ninvariant once: forall r: r.starts <= 1\n";
+    file(&folder, "starts.starl", program);
+    let outcome = |storage: &str| {
+        let set = format!("storage.kept={storage}");
+        let arguments = ["starts.starl", "--crashes", "1", "--set", &set, "--json"];
+        let account = json(&explore(&folder, &arguments));
+        assert_eq!(account["bounds"]["storage"].to_string(), storage);
+        account["outcome"].clone()
+    };
+    assert_eq!(outcome("false"), "complete");
+    assert_eq!(outcome("true"), "violated");
+    let kept = "starts-counterexample.json";
+    let replayed = starl(&folder, &["explore", "--replay", kept]);
+    assert_eq!(status(&replayed), 1, "{}", stderr(&replayed));
+}
+
+#[test]
 fn properties_that_are_not_judged_are_noted() {
     let folder = folder("explore_unjudged");
     let program = "program Counter\n\nn: Int = 0\n\ncount()\n    pre n == 0\n    eff\n        n += 1\n        finish()\n\n\

@@ -31,7 +31,8 @@ pub fn memory(crashes: u8) -> Setup {
 
 pub const WRITE_AND_READ: [Option<Operation>; 3] =
     [Some(Operation::Write), Some(Operation::Read), None];
-const TWO_WRITES: [Option<Operation>; 3] = [Some(Operation::Write), Some(Operation::Write), None];
+pub const TWO_WRITES: [Option<Operation>; 3] =
+    [Some(Operation::Write), Some(Operation::Write), None];
 /// Ticks after which all copies of the register answer.
 pub const REGISTER_IS_UP: u16 = 2;
 

@@ -14,3 +14,4 @@ mod threads_change_nothing;
 mod three_robots_with_a_crash;
 mod ties_that_nobody_breaks_are_caught;
 mod what_can_go_wrong_is_told_apart;
+mod with_storage;

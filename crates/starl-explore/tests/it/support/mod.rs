@@ -32,6 +32,7 @@ pub fn watched(setup: Setup) -> Setup {
     let setting = Setting {
         bodies: members.map(|member| member.body).collect(),
         properties: Properties::default().without_bounds(forever),
+        keeps_storage: setup.model.keeps_storage,
         ..Setting::default()
     };
     Setup {

@@ -93,6 +93,8 @@ pub enum Need {
     Stalls,
     /// Robots have storage.
     Storage,
+    /// A write to storage takes time.
+    WriteTime,
     /// A robot that restarts knows how many datagrams it has sent.
     Count,
 }

@@ -31,6 +31,7 @@ pub fn saved_values_are_found_after_a_restart<H: Host>() -> Outcome {
 /// on.
 pub fn effects_wait_for_the_write<H: Host>() -> Outcome {
     need::<H>(Need::Storage)?;
+    need::<H>(Need::WriteTime)?;
     let robot = Probe::new()
         .after(
             span(110),
@@ -63,6 +64,7 @@ pub fn effects_wait_for_the_write<H: Host>() -> Outcome {
 /// A crash before the end of a write undoes the inputs since.
 pub fn a_crash_undoes_a_write_and_its_effects<H: Host>() -> Outcome {
     need::<H>(Need::Storage)?;
+    need::<H>(Need::WriteTime)?;
     let robot = Probe::new()
         .after(span(110), [Act::Save(7)])
         .after(span(210), [Act::Save(8), Act::Send(ONE, 1), Act::Finish])
@@ -89,6 +91,7 @@ pub fn a_crash_undoes_a_write_and_its_effects<H: Host>() -> Outcome {
 /// Values saved during a write wait for the next one, which takes as long.
 pub fn writes_are_batched<H: Host>() -> Outcome {
     need::<H>(Need::Storage)?;
+    need::<H>(Need::WriteTime)?;
     let robot = Probe::new()
         .after(span(110), [Act::Save(1), Act::Send(ONE, 1)])
         .after(span(120), [Act::Save(2), Act::Send(ONE, 2)])
