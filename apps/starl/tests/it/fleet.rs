@@ -4,9 +4,10 @@
 
 use crate::support::*;
 use serde_json::Value;
-use std::net::UdpSocket;
+use std::net::{TcpListener, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
 /// Real time is slow: a test that waits for longer has failed.
@@ -30,17 +31,21 @@ count = 2
 start = [{ position = [0, 0] }, { position = [0, 1] }]
 "#;
 
-/// The first of `count` successive ports that are free.
+/// The first of `count` successive ports that are free. Each is given once, and all are below those that the system gives
+/// to sockets that ask for any.
 pub(crate) fn ports(count: u16) -> u16 {
-    let free = |port: u16| UdpSocket::bind(("127.0.0.1", port)).is_ok();
-    let socket = UdpSocket::bind("127.0.0.1:0").expect("there is a free port");
-    let start = socket.local_addr().expect("it is bound").port();
-    drop(socket);
-    (start..u16::MAX - count)
-        .chain(20_000..start)
-        .step_by(usize::from(count))
-        .find(|&first| (first..first + count).all(free))
-        .expect("some ports are free")
+    static GIVEN: AtomicU16 = AtomicU16::new(0);
+    let free = |port: u16| {
+        let address = ("127.0.0.1", port);
+        UdpSocket::bind(address).is_ok() && TcpListener::bind(address).is_ok()
+    };
+    let start = 12_000 + (std::process::id() % 100) as u16 * 100;
+    loop {
+        let first = start + GIVEN.fetch_add(count, Ordering::Relaxed);
+        if (first..first + count).all(free) {
+            return first;
+        }
+    }
 }
 
 /// A folder with a fleet of two robots.

@@ -10,6 +10,7 @@ import itertools
 import json
 import math
 import pathlib
+import random
 import socket
 import subprocess
 import sys
@@ -174,9 +175,15 @@ class Autopilot:
 
 
 def free_port():
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as tried:
-        tried.bind(("127.0.0.1", 0))
-        return tried.getsockname()[1]
+    """A free port below those that the system gives to sockets that ask for any."""
+    while True:
+        port = random.randrange(26_000, 32_000)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as tried:
+            try:
+                tried.bind(("127.0.0.1", port))
+            except OSError:
+                continue
+            return port
 
 
 def main():

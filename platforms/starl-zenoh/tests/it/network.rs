@@ -2,13 +2,21 @@
 
 use starl_node::link::{Arrival, Transport};
 use starl_zenoh::{Zenoh, ZenohOptions};
+use std::net::TcpListener;
+use std::sync::atomic::{AtomicU16, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
 
-/// A port that was free a moment ago.
-fn free_port() -> u16 {
-    let socket = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-    socket.local_addr().unwrap().port()
+/// A free port, given once, and below those that the system gives to sockets that ask for any.
+pub fn free_port() -> u16 {
+    static GIVEN: AtomicU16 = AtomicU16::new(0);
+    let start = 22_000 + (std::process::id() % 40) as u16 * 50;
+    loop {
+        let port = start + GIVEN.fetch_add(1, Ordering::Relaxed);
+        if TcpListener::bind(("127.0.0.1", port)).is_ok() {
+            return port;
+        }
+    }
 }
 
 fn join(me: u32, options: &ZenohOptions) -> (Zenoh, Receiver<Arrival>) {

@@ -66,8 +66,7 @@ impl Authority {
 }
 
 fn endpoint() -> String {
-    let socket = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
-    format!("tls/{}", socket.local_addr().unwrap())
+    format!("tls/127.0.0.1:{}", crate::network::free_port())
 }
 
 fn join(
