@@ -13,12 +13,13 @@ seeds=${2:-5}
 
 bad_network="--set network.loss=0.2 --set network.delay=100ms"
 
-# fleets EXAMPLE: the fleets it is run with, one a line, as options; an empty line is its own.
+# fleets EXAMPLE: the fleets and events it is run with, one a line, as options; an empty line is its own.
 fleets() {
     echo
     case $1 in
     race) printf -- '--robots %s\n' create=4 drone=4 create=6,drone=6 ;;
     formation) printf -- '--robots %s\n' create=2,drone=1 create=7 ;;
+    auction) echo --faults examples/auction/arrivals.toml ;;
     esac
 }
 
