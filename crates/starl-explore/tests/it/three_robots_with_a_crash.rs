@@ -12,10 +12,10 @@ use starl_primitives::election::Algorithm::Leases;
 use starl_primitives::mutex::{Algorithm, Options};
 
 /// The one resource is wanted by all of them, or by two.
-const ALL: [&[&str]; 3] = [&["a"], &["a"], &["a"]];
-const TWO: [&[&str]; 3] = [&["a"], &["a"], &[]];
+pub const ALL: [&[&str]; 3] = [&["a"], &["a"], &["a"]];
+pub const TWO: [&[&str]; 3] = [&["a"], &["a"], &[]];
 
-fn mutex(algorithm: Algorithm, wishes: &[&[&'static str]], timers: u8) -> Setup {
+pub fn mutex(algorithm: Algorithm, wishes: &[&[&'static str]], timers: u8) -> Setup {
     let options = Options {
         algorithm,
         ..Options::default()

@@ -2,14 +2,11 @@
 
 use crate::any_copies::{REGISTER_IS_UP, TWO_WRITES, WRITE_AND_READ, register};
 use crate::elections_are_safe::election;
-use crate::support::locker::Locker;
-use crate::support::{all_is_well, happens, setup, watched};
-use starl_explore::{Bounds, Setup};
+use crate::support::{all_is_well, happens, watched};
+use crate::three_robots_with_a_crash::{ALL, TWO, mutex};
+use starl_explore::Setup;
 use starl_primitives::election::Algorithm::Leases;
-use starl_primitives::mutex::{Algorithm, Options};
-
-const ALL: [&[&str]; 3] = [&["a"]; 3];
-const TWO: [&[&str]; 3] = [&["a"], &["a"], &[]];
+use starl_primitives::mutex::Algorithm;
 
 fn stored(mut setup: Setup) -> Setup {
     setup.model.keeps_storage = true;
@@ -18,17 +15,10 @@ fn stored(mut setup: Setup) -> Setup {
 
 /// Robots want the same resource, one robot crashes, and so many datagrams arrive twice.
 fn quorums(wishes: &[&[&'static str]], duplicates: u8) -> Setup {
-    let options = Options {
-        algorithm: Algorithm::Quorum,
-        ..Options::default()
-    };
-    let bounds = Bounds {
-        timers: 0,
-        crashes: 1,
-        duplicates,
-        ..Bounds::default()
-    };
-    stored(setup(3, Locker::new(wishes, options), bounds))
+    let mut mutex = mutex(Algorithm::Quorum, wishes, 0);
+    mutex.bounds.crashes = 1;
+    mutex.bounds.duplicates = duplicates;
+    stored(mutex)
 }
 
 #[test]
