@@ -261,10 +261,8 @@ impl Names {
             let help = "name it only in scheduled events with a later time";
             return report.problem_with_help(origin, path, message, help);
         }
-        let of_name = self.groups.iter().filter(|group| group.name == name);
-        if let Some(group) = of_name.max_by_key(|group| group.count)
-            && group.count > 0
-        {
+        let is_meant = |group: &&NamedGroup| group.name == name && group.count > 0;
+        if let Some(group) = self.groups.iter().find(is_meant) {
             let message = format!("{name:?} is the name of a group");
             let help = format!("name one of its robots, such as `{}`", group.name_of(0));
             return report.problem_with_help(origin, path, message, help);
